@@ -1,0 +1,36 @@
+# What is there decides which libraries are built; the program and the tests need all of them, a bare core only GLM.
+if(MIS_PROGRAM OR MIS_TESTS OR MIS_BENCH)
+  set(need REQUIRED)
+else()
+  set(need QUIET)
+endif()
+
+find_package(glm REQUIRED)
+# Lanes; without xsimd all kernels are scalar. Its package file asks for xtl, which its headers do not use here.
+find_path(MIS_XSIMD_INCLUDE_DIR xsimd/xsimd.hpp)
+mark_as_advanced(MIS_XSIMD_INCLUDE_DIR)
+
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3.13 ${need})
+endif()
+find_package(TBB ${need})
+find_package(Boost 1.74 ${need})  # headers alone: Boost.Math
+find_package(fmt ${need})
+find_package(nlohmann_json ${need})
+find_package(assimp ${need})
+list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
+find_package(OpenImageIO MODULE ${need})
+if(TARGET Boost::headers AND fmt_FOUND AND nlohmann_json_FOUND AND assimp_FOUND AND OpenImageIO_FOUND)
+  set(MIS_HAS_IO ON)
+endif()
+
+if(MIS_PROGRAM)
+  find_package(CLI11 REQUIRED)
+endif()
+if(MIS_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(MIS_BENCH)
+  find_package(benchmark REQUIRED)
+endif()

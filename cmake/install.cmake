@@ -1,0 +1,37 @@
+# cmake --install: the program, the libraries, and find_package(mis COMPONENTS core embree tbb compare io).
+# --component development installs the libraries, without the program.
+include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/mis")
+
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/mis" "${PROJECT_BINARY_DIR}/generated/mis"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN cli EXCLUDE)
+
+# One file of targets per component, so that one that is not asked for asks for nothing.
+set(components "")
+foreach(component core embree tbb compare io)
+  if(TARGET mis_${component})
+    list(APPEND components ${component})
+    install(TARGETS mis_${component} EXPORT mis-${component} ARCHIVE)
+    if(component STREQUAL core)
+      set_target_properties(mis_headers PROPERTIES EXPORT_NAME headers)
+      install(TARGETS mis_headers EXPORT mis-core)
+    endif()
+    install(EXPORT mis-${component} NAMESPACE mis:: DESTINATION "${package_dir}")
+  endif()
+endforeach()
+
+configure_package_config_file(cmake/mis-config.cmake.in "${PROJECT_BINARY_DIR}/mis-config.cmake"
+  INSTALL_DESTINATION "${package_dir}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/mis-config-version.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/mis-config.cmake" "${PROJECT_BINARY_DIR}/mis-config-version.cmake"
+  cmake/FindOpenImageIO.cmake DESTINATION "${package_dir}")
+
+if(TARGET mis_images)
+  install(TARGETS mis_images LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/mis" COMPONENT program)
+endif()
+if(TARGET mis_program)
+  install(TARGETS mis_program RUNTIME COMPONENT program)
+  install(DIRECTORY scenes/ DESTINATION "${CMAKE_INSTALL_DATADIR}/mis/scenes" COMPONENT program)
+endif()
+install(FILES LICENSE README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")

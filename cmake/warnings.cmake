@@ -1,0 +1,12 @@
+# Flags of everything below this directory; an embedder's own targets stay as they are.
+# Contraction off: a*b + c rounds the same on every machine, so the same seed gives the same bits.
+add_compile_options(
+  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion
+  -ffp-contract=off)
+# Designated initialisers name what differs from the defaults; the rest is left out on purpose.
+add_compile_options(-Wno-missing-field-initializers)
+# GCC 12 sees overlapping copies inside std::string where there are none (GCC bug 105651).
+add_compile_options($<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+if(MIS_WERROR)
+  add_compile_options(-Werror)
+endif()

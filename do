@@ -1,0 +1,128 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds mis, and runs it: `./do compare scenes/veach.json`. Results go to stdout, all else to stderr.
+set -euo pipefail
+root=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
+
+usage() {
+    cat <<'END'
+./do COMMAND …     builds mis where needed and runs `mis COMMAND …`; try ./do compare scenes/veach.json
+./do test …        builds and runs the tests; … goes to ctest (-R NAME, -V)
+./do bench …       builds and runs the benchmarks; … goes to each of them (--benchmark_filter=NAME)
+./do format        formats the sources; ./do format --check only says what it would change
+./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci)
+./do clean         removes all that was built
+END
+}
+
+say() { printf 'do: %s\n' "$*" >&2; }
+fail() { say "$*"; exit 1; }
+
+# Installs the packages of these groups of packages.txt that are missing.
+need_packages() {
+    command -v dpkg-query >/dev/null || return 0 # not Debian: CMake says what it does not find
+    local group name installed wanted=() missing=()
+    while read -r group name _; do
+        [[ " $* " == *" $group "* ]] && wanted+=("$name")
+    done < <(grep -v '^ *#' "$root/packages.txt")
+    ((${#wanted[@]})) || fail "packages.txt has no such group; there are build, format, ci"
+    installed=" $(dpkg-query -W -f '${db:Status-Status}:${Package} ' "${wanted[@]}" 2>/dev/null || true)"
+    for name in "${wanted[@]}"; do
+        [[ $installed == *" installed:$name "* ]] || missing+=("$name")
+    done
+    ((${#missing[@]})) || return 0
+
+    local as_root=()
+    if ((EUID != 0)); then
+        command -v sudo >/dev/null || fail "these packages are missing, and there is no sudo; as root: apt-get install ${missing[*]}"
+        as_root=(sudo)
+    fi
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+    local install=("${apt[@]}" install -y --no-install-recommends "${missing[@]}")
+    say "installing with ${as_root[*]:+${as_root[*]} }apt-get: ${missing[*]}"
+    if ! apt-cache show "${missing[@]}" >/dev/null 2>&1 || ! "${install[@]}" >&2; then
+        "${apt[@]}" update >&2 || fail "apt-get update failed"
+        "${install[@]}" >&2 || fail "these packages could not be installed: ${missing[*]}"
+    fi
+}
+
+# Shows ninja's lines on stderr: one that is rewritten on a terminal, nothing at all when there was nothing to do.
+show_progress() {
+    local line rewritten=
+    while IFS= read -r line; do
+        case $line in
+            "ninja: no work to do." | "ninja: Entering directory"* | *"Re-checking globbed directories..." | "") continue ;;
+        esac
+        if [[ -t 2 && $line == "["+([0-9])/+([0-9])"] "* ]]; then
+            printf '\r\e[K%.*s' "$((${COLUMNS:-80} - 1))" "$line" >&2
+            rewritten=yes
+        else
+            printf '%s%s\n' "${rewritten:+$'\r\e[K'}" "$line" >&2
+            rewritten=
+        fi
+    done
+    [[ -z $rewritten ]] || printf '\r\e[K' >&2
+}
+
+# Builds a target of the Release build.
+build() {
+    need_packages build
+    mkdir -p "$root/build"
+    (
+        flock 9 # of two builds at a time, one waits
+        if [[ ! -f $root/build/release/build.ninja ]]; then
+            say "configuring (once), then building"
+            cmake -S "$root" --preset release >"$root/build/configure.log" 2>&1 || {
+                cat "$root/build/configure.log" >&2
+                fail "cmake failed"
+            }
+        fi
+        shopt -s extglob
+        ninja -C "$root/build/release" -j "$(nproc)" "$1" 2>&1 | show_progress
+    ) 9>"$root/build/.lock" || fail "the build failed"
+}
+
+sources() {
+    find "$root/mis" "$root/tests" "$root/bench" \( -name '*.h' -o -name '*.cpp' \) -print0
+}
+
+case ${1-} in
+    "")
+        usage >&2
+        exit 2
+        ;;
+    -h | --help | help)
+        usage
+        if [[ -x $root/build/release/bin/mis ]]; then
+            echo
+            exec "$root/build/release/bin/mis" --help
+        fi
+        ;;
+    test)
+        build all
+        exec ctest --test-dir "$root/build/release" -j "$(nproc)" --output-on-failure --no-tests=error "${@:2}"
+        ;;
+    bench)
+        build benches
+        shopt -s nullglob
+        for source in "$root"/bench/*.cpp; do
+            name=$(basename "$source" .cpp)
+            say "bench_$name"
+            "$root/build/release/bin/bench_$name" "${@:2}"
+        done
+        ;;
+    format)
+        need_packages format
+        clang-format --version | grep -q 'version 14\.' || say "this is not clang-format 14, whose layout the sources follow"
+        case ${2-} in
+            "") sources | xargs -0 -r clang-format -i ;;
+            --check) sources | xargs -0 -r clang-format --dry-run -Werror ;;
+            *) fail "format knows --check, not $2" ;;
+        esac
+        ;;
+    setup) need_packages "${@:2}" ;;
+    clean) rm -rf -- "$root/build" ;;
+    *)
+        build mis_program
+        exec "$root/build/release/bin/mis" "$@"
+        ;;
+esac

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "mis/math/stable.h"
+#include "mis/sampling/warp.h"
+#include "mis/scene/material.h"
+
+#include <concepts>
+#include <string_view>
+
+namespace mis {
+
+/// A BSDF for one pair of directions.
+template <class T> struct BsdfValue {
+    Vec3<T> f;  ///< sr⁻¹, RGB; without the cosine
+    T pdf;      ///< density of the BSDF's own draws at wi, per steradian
+};
+
+/// How a surface scatters. Directions are unit vectors in the shading frame (z is the normal), away from the point,
+/// with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a wi with wi.z ≤ 0 is a lost draw,
+/// which contributes 0 and is not redrawn, so ∫pdf over the hemisphere + P(lost) = 1. draws(): false where all is black.
+template <class B, class T>
+concept Bsdf = std::constructible_from<B, const Material&> &&
+               requires(const B& bsdf, const Vec3<T>& w, const T& lobe, const Vec2<T>& u) {
+                   { B::name } -> std::convertible_to<std::string_view>;
+                   { bsdf.evaluate(w, w) } -> std::same_as<BsdfValue<T>>;
+                   { bsdf.sample(w, lobe, u) } -> std::same_as<Vec3<T>>;
+                   { bsdf.draws() } -> std::same_as<bool>;
+               };
+
+/// An RGB constant in every lane.
+template <class T> MIS_INLINE Vec3<T> color(const Vec3<double>& rgb)
+{
+    return {number<T>(rgb.x), number<T>(rgb.y), number<T>(rgb.z)};
+}
+
+/// The half vector between two directions of the shading frame, by what formulas ask of it.
+template <class T> struct HalfVector {
+    T sin2, cos2;  ///< of its angle to the normal, each to full relative precision
+    T wo_dot_h;
+};
+
+template <class T> MIS_INLINE HalfVector<T> half_vector(const Vec3<T>& wo, const Vec3<T>& wi)
+{
+    using std::sqrt;
+    const Vec3<T> sum = wo + wi;
+    const T squared = max_of(length2(sum), number<T>(1e-30));
+    const T inverse = number<T>(1) / squared;
+    return {(square(sum.x) + square(sum.y)) * inverse, square(sum.z) * inverse, sqrt(squared) * number<T>(0.5)};
+}
+
+/// Draws a half vector ∝ cos^m θ_h and reflects wo about it. Its density: reflected_lobe_pdf.
+template <class T> MIS_INLINE Vec3<T> sample_reflected_lobe(const Vec3<T>& wo, const Vec2<T>& u, double m)
+{
+    const Vec3<T> h = sample_lobe(u, m);
+    return h * (number<T>(2) * dot(wo, h)) - wo;
+}
+template <class T> MIS_INLINE T reflected_lobe_pdf(const T& lobe_value, const T& wo_dot_h, double m)
+{
+    return number<T>((m + 1) / (8 * 3.14159265358979323846)) * lobe_value / wo_dot_h;
+}
+
+/// s of design §1: the probability of drawing from the specular lobe; a black lobe has 0 unless the scene says so.
+inline double specular_share(const Material& material, double specular, double diffuse)
+{
+    if (material.specular_probability) return *material.specular_probability;
+    return specular > 0 ? specular / (specular + diffuse) : 0;
+}
+
+/// A BSDF of a diffuse lobe and a lobe cos^m θ_h about the half vector:
+/// f = diffuse + specular · cos^m θ_h, drawn from the lobe with probability s.
+struct HalfVectorBsdf {
+    Vec3<double> diffuse, specular;  ///< sr⁻¹
+    double m, s;
+
+    template <class T> MIS_INLINE BsdfValue<T> evaluate(const Vec3<T>& wo, const Vec3<T>& wi) const
+    {
+        const HalfVector<T> h = half_vector(wo, wi);
+        const T lobe = pow_cos(h.sin2, h.cos2, m);
+        return {color<T>(diffuse) + color<T>(specular) * lobe,
+                number<T>(1 - s) * cosine_pdf(wi.z) + number<T>(s) * reflected_lobe_pdf(lobe, h.wo_dot_h, m)};
+    }
+    template <class T>
+    MIS_INLINE Vec3<T> sample(const Vec3<T>& wo, const T& lobe, const Vec2<T>& u) const
+    {
+        if (s <= 0) return sample_cosine(u);
+        const Vec3<T> specular_wi = sample_reflected_lobe(wo, u, m), diffuse_wi = sample_cosine(u);
+        const auto is_specular = lobe < number<T>(s);
+        return {select(is_specular, specular_wi.x, diffuse_wi.x), select(is_specular, specular_wi.y, diffuse_wi.y),
+                select(is_specular, specular_wi.z, diffuse_wi.z)};
+    }
+    bool draws() const { return luminance(diffuse) > 0 || luminance(specular) > 0; }
+};
+
+}  // namespace mis

@@ -1,0 +1,110 @@
+#include "mis/cli/commands.h"
+#include "mis/cli/interrupt.h"
+#include "mis/cli/progress.h"
+#include "mis/cli/ready.h"
+#include "mis/cli/report_folder.h"
+#include "mis/cli/strategy_list.h"
+#include "mis/compare/overall.h"
+#include "mis/compare/study.h"
+#include "mis/io/report_csv.h"
+#include "mis/io/report_json.h"
+#include "mis/io/report_text.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace mis::cli {
+
+namespace {
+
+/// Throws UsageError where the study would not fit into memory.
+void check_memory(const Scene& scene, std::size_t strategies)
+{
+    std::size_t points = scene.probes.size();
+    if (scene.camera)
+        points += static_cast<std::size_t>(scene.camera->resolution[0]) * static_cast<std::size_t>(scene.camera->resolution[1]);
+    const double needed = static_cast<double>(study_bytes(points, strategies));
+    const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    if (needed > 0.8 * there)
+        throw UsageError(fmt::format("{}: {} shading points by {} strategies take about {:.1f} GB, and this machine has "
+                                     "{:.1f} GB\n    Lower --resolution, or compare fewer strategies.",
+                                     scene.file, points, strategies, needed / 1e9, there / 1e9));
+}
+
+StudyOptions study_options(const CompareOptions& options, Progress& progress)
+{
+    StudyOptions study;
+    study.seed = options.run.seed;
+    study.at = options.at;
+    if (options.stop.spp) study.spp = static_cast<std::uint64_t>(*options.stop.spp);
+    study.seconds = options.stop.seconds;
+    study.error = options.stop.error;
+    study.stop = &interrupt_flag();
+    study.progress = [&progress](double done, const SceneReport& so_far) {
+        std::string text = so_far.name.empty() ? so_far.file : so_far.name;
+        const StrategyReport* best = nullptr;
+        for (const StrategyReport& s : so_far.strategies)
+            if (s.rank_by_efficiency == 1) best = &s;
+        if (best != nullptr) text += ", ahead: " + name_of(best->strategy);
+        progress.show(text, done);
+    };
+    return study;
+}
+
+void check_options(const CompareOptions& options)
+{
+    check(options.stop, 4);
+    if (!(options.at > 0 && options.at <= 1e12))
+        throw UsageError(fmt::format("--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
+    if (options.output.json == "-" && options.output.csv == "-")
+        throw UsageError("--json and --csv: found - for both; standard output takes one of them");
+}
+
+void write_outputs(const CompareOptions& options, const Report& report)
+{
+    if (!options.output.json.empty()) write_report_json(report, options.output.json);
+    if (!options.output.csv.empty()) write_report_csv(report, options.output.csv);
+    if (!options.out.empty()) write_report_folder(report, options.out, options.force);
+}
+
+}  // namespace
+
+int run_compare(const CompareOptions& options)
+{
+    check_options(options);
+    const StrategySelection selection = select_strategies(
+        {options.policies, options.heuristics, options.techniques, options.models, options.strategies});
+    if (!options.out.empty()) check_report_folder(options.out, options.force);
+    Report report{.version = MIS_VERSION, .command = options.run.command_line, .machine = machine_description()};
+    report.seed = options.run.seed;
+    report.at = options.at;
+    report.instruction_set = kernels<float>().instruction_set;
+    if (!options.run.quiet)
+        for (const std::string& reason : selection.left_out) fmt::print(stderr, "left out: {}\n", reason);
+
+    const bool shows_table = options.output.json != "-" && options.output.csv != "-";
+    watch_for_interrupt();
+    Progress progress(!options.run.quiet);
+    for (const std::string& file : options.scenes) {
+        const ReadyScene ready(file, options.run);
+        check_memory(ready.scene, selection.strategies.size());
+        report.threads = ready.executor.threads;
+        const Study study = run_study(ready.lit, selection.strategies, study_options(options, progress), ready.executor);
+        progress.clear();
+        report.scenes.push_back(study.report);
+        report.partial = report.partial || study.report.partial;
+        if (shows_table) {
+            fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "", scene_text(report.scenes.back(), report));
+            std::fflush(stdout);
+        }
+        if (interrupt_flag()) break;
+    }
+    report.overall = rank_overall(report.scenes);
+    if (shows_table) fmt::print("{}", overall_text(report));
+    write_outputs(options, report);
+    return report.partial ? interrupted : ok;
+}
+
+}  // namespace mis::cli

@@ -1,0 +1,130 @@
+#include "mis/cli/options.h"
+
+#include "mis/io/scene_json.h"
+#include "mis/run/tbb.h"
+#include "mis/scene/validate.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+namespace mis::cli {
+
+void add_run_options(CLI::App& command, RunOptions& options)
+{
+    command.add_option("--threads", options.threads, "threads to run on (0: as many as the machine has)");
+    command.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
+    command.add_option("--resolution", options.resolution, "picture size WxH in place of the scene's");
+    command.add_option("--effects", options.effects, "auto: only what the scene calls for; all: everything")
+        ->capture_default_str();
+    command.add_option("--sampler", options.sampler, "independent random numbers")->capture_default_str();
+    command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
+}
+
+void add_output_options(CLI::App& command, OutputOptions& options)
+{
+    command.add_option("--json", options.json, "write the figures as JSON to FILE, or - for standard output")
+        ->type_name("FILE");
+    command.add_option("--csv", options.csv, "write the figures as CSV to FILE, or - for standard output")
+        ->type_name("FILE");
+}
+
+void add_stop_options(CLI::App& command, StopOptions& options)
+{
+    command.add_option("--spp", options.spp, "samples per shading point")->type_name("N");
+    command.add_option("--time", options.seconds, "seconds of wall time")->type_name("S");
+    command.add_option("--error", options.error, "until the relative error is E")->type_name("E");
+}
+
+void check(const StopOptions& options, std::int64_t least_spp)
+{
+    if (int{options.spp.has_value()} + int{options.seconds.has_value()} + int{options.error.has_value()} > 1)
+        throw UsageError("--spp, --time and --error: found more than one; give one of them, or none");
+    constexpr std::int64_t most_spp = std::int64_t{1} << 40;
+    if (options.spp && (*options.spp < least_spp || *options.spp > most_spp))
+        throw UsageError(fmt::format("--spp: found {}; {} to {} samples per shading point are allowed", *options.spp,
+                                     least_spp, most_spp));
+    if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 1e7))
+        throw UsageError(fmt::format("--time: found {}; a time is greater than 0 and at most 1e7 seconds", *options.seconds));
+    if (options.error && !(*options.error > 0 && *options.error < 10))
+        throw UsageError(fmt::format("--error: found {}; a relative error is greater than 0 and below 10", *options.error));
+}
+
+namespace {
+
+std::array<int, 2> parse_resolution(const std::string& text)
+{
+    std::array<int, 2> size{};
+    const char* const end = text.data() + text.size();
+    const auto [x, error] = std::from_chars(text.data(), end, size[0]);
+    bool is_good = error == std::errc{} && x != end && *x == 'x';
+    if (is_good) {
+        const auto [rest, error2] = std::from_chars(x + 1, end, size[1]);
+        is_good = error2 == std::errc{} && rest == end;
+    }
+    const auto in_range = [](int n) { return n >= 1 && n <= limits::resolution; };
+    if (!is_good || !in_range(size[0]) || !in_range(size[1]))
+        throw UsageError(fmt::format("--resolution: found \"{}\"; a resolution is WxH, each from 1 to {}, as in 256x171",
+                                     text, limits::resolution));
+    return size;
+}
+
+}  // namespace
+
+Scene read_scene_for(const std::string& file, const RunOptions& options)
+{
+    if (options.effects != "auto" && options.effects != "all")
+        throw UsageError("--effects: found \"" + options.effects + "\"; known are auto, all");
+    if (options.sampler != "independent")
+        throw UsageError("--sampler: found \"" + options.sampler + "\"; known is independent");
+    const std::optional<std::array<int, 2>> resolution =
+        options.resolution.empty() ? std::nullopt : std::optional(parse_resolution(options.resolution));
+    Scene scene = read_scene(file);
+    if (resolution) {
+        if (!scene.camera) throw UsageError("--resolution: " + file + " has no camera, so it has no picture");
+        scene.camera->resolution = *resolution;
+    }
+    return scene;
+}
+
+AnyExecutor make_executor(const RunOptions& options)
+{
+    constexpr int most = 1024;
+    if (options.threads < 0 || options.threads > most)
+        throw UsageError(fmt::format("--threads: found {}; 0 to {} are allowed", options.threads, most));
+    return any_executor(TbbExecutor(options.threads));
+}
+
+std::vector<std::string> split_list(const std::string& list, const std::string& option)
+{
+    std::vector<std::string> parts;
+    std::size_t start = 0;
+    while (start <= list.size()) {
+        const std::size_t comma = std::min(list.find(',', start), list.size());
+        const std::size_t first = list.find_first_not_of(" \t", start);
+        const std::size_t last = list.find_last_not_of(" \t", comma == 0 ? 0 : comma - 1);
+        if (comma == start || first >= comma || last == std::string::npos)
+            throw UsageError(option + ": found \"" + list + "\"; a list is names separated by commas");
+        parts.push_back(list.substr(first, last - first + 1));
+        start = comma + 1;
+    }
+    return parts;
+}
+
+std::string machine_description()
+{
+    std::ifstream info("/proc/cpuinfo");
+    std::string line, model = "unknown processor";
+    while (std::getline(info, line)) {
+        if (line.rfind("model name", 0) != 0) continue;
+        const std::size_t colon = line.find(':');
+        if (colon != std::string::npos && colon + 2 <= line.size()) model = line.substr(colon + 2);
+        break;
+    }
+    return fmt::format("{}, {} cores", model, std::thread::hardware_concurrency());
+}
+
+}  // namespace mis::cli

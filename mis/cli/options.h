@@ -1,0 +1,67 @@
+#pragma once
+
+#include "mis/run/executor.h"
+#include "mis/scene/scene.h"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mis::cli {
+
+/// Exit codes of every command.
+enum Exit : int { ok = 0, failed = 1, usage = 2, interrupted = 130 };
+
+/// A wrong command line. what() is the finished message: what was found, what is allowed.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// What every command that runs takes.
+struct RunOptions {
+    int threads = 0;          ///< 0: as many as the machine has
+    std::uint64_t seed = 1;
+    bool quiet = false;
+    std::string resolution;   ///< "WxH", or empty for the scene's
+    std::string effects = "auto";
+    std::string sampler = "independent";
+    std::string command_line;
+};
+
+/// --threads, --seed, --quiet, --resolution, --effects, --sampler.
+void add_run_options(CLI::App& command, RunOptions& options);
+
+/// Where figures go besides the table: --json and --csv.
+struct OutputOptions {
+    std::string json, csv;  ///< a file, "-" for standard output, or empty
+};
+void add_output_options(CLI::App& command, OutputOptions& options);
+
+/// --spp, --time, --error: when to stop; at most one is given.
+struct StopOptions {
+    std::optional<std::int64_t> spp;
+    std::optional<double> seconds, error;
+};
+void add_stop_options(CLI::App& command, StopOptions& options);
+
+/// Throws UsageError unless the values make sense together; `least_spp` is the fewest samples the command can use.
+void check(const StopOptions& options, std::int64_t least_spp);
+
+/// The scene of that file at the resolution that was asked for. Throws SceneError and UsageError.
+Scene read_scene_for(const std::string& file, const RunOptions& options);
+
+/// As many threads as asked for. Throws UsageError.
+AnyExecutor make_executor(const RunOptions& options);
+
+/// "a, b,c" → a b c; empty parts are refused by UsageError.
+std::vector<std::string> split_list(const std::string& list, const std::string& option);
+
+/// Processor and number of cores, in one line.
+std::string machine_description();
+
+}  // namespace mis::cli

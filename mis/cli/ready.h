@@ -1,0 +1,28 @@
+#pragma once
+
+#include "mis/cli/options.h"
+#include "mis/engine/lit_scene.h"
+#include "mis/trace/embree.h"
+
+#include <memory>
+
+namespace mis::cli {
+
+/// A scene file read and made ready: what every command that runs starts from. Throws what reading throws.
+struct ReadyScene {
+    ReadyScene(const std::string& file, const RunOptions& options)
+        : executor(make_executor(options)), scene(read_scene_for(file, options)),
+          tracer(scene.surfaces.empty() && options.effects != "all" ? nullptr : std::make_unique<EmbreeTracer>(scene)),
+          lit(scene, tracer.get(), options.effects == "all" ? all_effects(scene) : called_for(scene))
+    {
+    }
+    ReadyScene(const ReadyScene&) = delete;
+    ReadyScene& operator=(const ReadyScene&) = delete;
+
+    AnyExecutor executor;
+    Scene scene;
+    std::unique_ptr<SurfaceTracer> tracer;  ///< nullptr where there is nothing to trace
+    LitScene lit;
+};
+
+}  // namespace mis::cli

@@ -1,0 +1,212 @@
+#include "mis/compare/bias.h"
+
+#include "mis/compare/estimate.h"
+#include "mis/compare/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mis {
+namespace {
+
+/// A mean of float samples may be off by this much of itself and still be right.
+constexpr double rounding = 4e-6;
+
+/// One mean (of the image or of a region), by one strategy.
+struct Series {
+    std::vector<double> values;   ///< one per replicate
+    double spread2 = 0;           ///< variance over the replicates
+    double largest_skewness = 0;  ///< of the mean of all replicates
+    bool usable = false;
+};
+
+struct Test {
+    double p = 1, t = 0, difference = 0, reference = 0;
+    int region = -1;  ///< −1: the whole image
+
+    /// Where both p are too small to be told from 0, t decides.
+    bool is_worse_than(const Test& other) const
+    {
+        return p < other.p || (p == other.p && t > other.t);
+    }
+};
+
+Series series_of(const StrategyMeasurements& s, int region, std::size_t replicates)
+{
+    Series series;
+    for (std::size_t r = 0; r < replicates; ++r)
+        series.values.push_back(region < 0 ? s.replicates[r].mean : s.region_means[r][region]);
+    const Participation& carried =
+        region < 0 ? s.pooled.participation : s.region_participation[region];
+    const bool exact = s.all_samples_equal_reference;
+    series.spread2 = Moments::of(std::span<const double>(series.values)).variance();
+    series.largest_skewness = exact ? 0 : 1 / std::sqrt(std::max(carried.number(), 1.0));
+    series.usable = exact || carried.number() >= (region < 0 ? 1 : least_region_participation);
+    return series;
+}
+
+/// [level][strategy]; level 0 is the image, level k the region k − 1.
+std::vector<std::vector<Series>> all_series(std::span<const StrategyMeasurements* const> strategies,
+                                            std::size_t replicates)
+{
+    std::size_t regions = std::numeric_limits<std::size_t>::max();
+    for (const StrategyMeasurements* s : strategies)
+        regions = std::min(
+            regions, s->region_means.size() < replicates ? 0 : s->region_participation.size());
+    std::vector<std::vector<Series>> levels(1 + regions);
+    for (std::size_t level = 0; level < levels.size(); ++level)
+        for (const StrategyMeasurements* s : strategies)
+            levels[level].push_back(series_of(*s, static_cast<int>(level) - 1, replicates));
+    return levels;
+}
+
+/// Hall's (1992) transformation of a t statistic to one of a normal mean, at the skewness (of the
+/// mean, either sign) that brings it closest to 0. It never falls as t grows.
+double unskewed(double t, double skewness)
+{
+    if (skewness <= 0) return t;
+    return std::max(0.0, (1 - std::pow(1 - skewness * t / 3, 3)) / skewness - skewness / 6);
+}
+
+class BiasSearch {
+public:
+    BiasSearch(std::span<const StrategyMeasurements* const> strategies, std::size_t replicates)
+        : strategies_(strategies), replicates_(replicates),
+          levels_(all_series(strategies, replicates)), trusted_(strategies.size(), true)
+    {
+    }
+
+    /// The strategy's worst level against the trusted others, corrected for the number of tests.
+    Test worst_test(std::size_t s) const
+    {
+        Test worst;
+        for (std::size_t level = 0; level < levels_.size(); ++level) {
+            const Test test = tested(s, level);
+            if (test.is_worse_than(worst)) worst = test;
+        }
+        worst.p = std::min(1.0, worst.p * static_cast<double>(levels_.size() * strategies_.size()));
+        return worst;
+    }
+
+    bool trusts(std::size_t s) const { return trusted_[s]; }
+    void distrust(std::size_t s) { trusted_[s] = false; }
+    std::size_t trusted_count() const
+    {
+        return static_cast<std::size_t>(std::count(trusted_.begin(), trusted_.end(), true));
+    }
+
+private:
+    std::vector<std::size_t> reference_members(std::size_t s, std::size_t level) const
+    {
+        std::vector<std::size_t> members;
+        for (std::size_t k = 0; k < strategies_.size(); ++k)
+            if (k != s && trusted_[k] && levels_[level][k].usable) members.push_back(k);
+        return members;
+    }
+
+    /// In proportion to 1/(u + the second least u), u the variance of the mean: near the optimum,
+    /// but no strategy alone outvotes the rest however small it claims its variance to be.
+    std::vector<double> weights(const std::vector<std::size_t>& members) const
+    {
+        std::vector<double> u;
+        for (const std::size_t k : members) {
+            const PooledFigures& pooled = strategies_[k]->pooled;
+            u.push_back(strategies_[k]->all_samples_equal_reference
+                            ? 0
+                            : pooled.variance /
+                                  static_cast<double>(std::max<std::uint64_t>(pooled.samples, 1)));
+        }
+        std::vector<double> sorted = u;
+        std::sort(sorted.begin(), sorted.end());
+        const double second = sorted.size() > 1 ? sorted[1] : sorted[0];
+        double sum = 0;
+        for (double& w : u) sum += w = second > 0 ? second / (w + second) : w == 0 ? 1 : 0;
+        for (double& w : u) w /= sum;
+        return u;
+    }
+
+    Test tested(std::size_t s, std::size_t level) const
+    {
+        const Series& own = levels_[level][s];
+        const std::vector<std::size_t> members = reference_members(s, level);
+        if (!own.usable || members.empty() || replicates_ < 2) return {};
+        const std::vector<double> weight = weights(members);
+        std::vector<double> difference = own.values;
+        double reference = 0, spread2 = own.spread2,
+               third = std::pow(own.spread2, 1.5) * own.largest_skewness;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            const Series& other = levels_[level][members[i]];
+            for (std::size_t r = 0; r < replicates_; ++r) {
+                difference[r] -= weight[i] * other.values[r];
+                reference += weight[i] * other.values[r] / static_cast<double>(replicates_);
+            }
+            const double scaled = weight[i] * weight[i] * other.spread2;
+            spread2 += scaled;
+            third += std::pow(scaled, 1.5) * other.largest_skewness;
+        }
+        const MeanAndError d = mean_and_error(difference);
+        const double se = std::hypot(d.se, rounding * std::fabs(reference));
+        const double skewness = spread2 > 0 ? third / std::pow(spread2, 1.5) : 0;
+        const double t = d.mean == 0 ? 0 : unskewed(std::fabs(d.mean) / se, skewness);
+        const double p = std::min(1.0, 2 * upper_tail(t, static_cast<double>(replicates_ - 1)));
+        return {p, t, d.mean, reference, static_cast<int>(level) - 1};
+    }
+
+    std::span<const StrategyMeasurements* const> strategies_;
+    std::size_t replicates_;
+    std::vector<std::vector<Series>> levels_;
+    std::vector<char> trusted_;
+};
+
+std::string in_words(const Test& test, bool audited)
+{
+    const std::string where = test.region < 0 ? "" : " in region " + std::to_string(test.region);
+    const char* side = test.difference > 0 ? " above" : " below";
+    std::string text = "its mean" + where + " is " +
+                       (test.reference != 0 ? percent(std::fabs(test.difference / test.reference))
+                                            : number(std::fabs(test.difference))) +
+                       side + " what the others agree on (p = " + number(test.p, 1) +
+                       ", corrected)";
+    if (test.difference < 0 && !audited)
+        text += "; no audit was possible, so it may also lack rare samples";
+    return text;
+}
+
+}  // namespace
+
+std::vector<BiasFinding> find_bias(std::span<const StrategyMeasurements* const> strategies,
+                                   double error)
+{
+    std::vector<BiasFinding> findings(strategies.size());
+    if (strategies.size() < 2) return findings;
+    std::size_t replicates = strategies[0]->replicates.size();
+    for (const StrategyMeasurements* s : strategies)
+        replicates = std::min(replicates, s->replicates.size());
+    BiasSearch search(strategies, replicates);
+    while (search.trusted_count() > 1) {
+        std::size_t worst = strategies.size();
+        std::vector<Test> tests(strategies.size());
+        for (std::size_t s = 0; s < strategies.size(); ++s) {
+            if (!search.trusts(s)) continue;
+            tests[s] = search.worst_test(s);
+            findings[s].p_value = tests[s].p;
+            if (worst == strategies.size() || tests[s].is_worse_than(tests[worst])) worst = s;
+        }
+        if (tests[worst].p >= error) break;
+        const bool last_two = search.trusted_count() == 2;
+        for (std::size_t s = 0; s < strategies.size(); ++s) {
+            if (!search.trusts(s) || (s != worst && !last_two)) continue;
+            findings[s].biased = true;
+            findings[s].too_low = tests[s].difference < 0;
+            findings[s].reason = in_words(tests[s], strategies[s]->audit.available);
+            if (last_two)
+                findings[s].reason +=
+                    "; only two are left, and nothing says which of them is right";
+            search.distrust(s);
+        }
+    }
+    return findings;
+}
+
+}  // namespace mis

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "mis/compare/measurements.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mis {
+
+/// How one strategy's mean stands against the others'.
+struct BiasFinding {
+    bool biased = false;
+    bool too_low = false;  ///< below the others, where biased
+    double p_value = 1;  ///< corrected for all strategies and regions; 1 if nothing could be tested
+    std::string reason;  ///< in words, where biased
+};
+
+/// A region is tested where so many samples carry the variance of each of the means compared there.
+inline constexpr double least_region_participation = 30;
+
+/// Below this participation a mean that is too low does not make a strategy biased unless an audit
+/// was made: the missing light may be in rare samples that were never drawn. Such a strategy is not
+/// resolved, and says so.
+inline constexpr double least_participation_without_audit = 1000;
+
+/// Tests the mean of each of `strategies` (all resolved), over the image and in each region,
+/// against a reference pooled from the others. Strategies share random numbers, so the standard
+/// error is that of the difference, from the replicates (Student's t). Samples are skewed, which
+/// makes a t test of a mean too quick to call it low; Hall's (1992) transformation, with the
+/// largest skewness that the participation allows, undoes that. The worst is taken out and the rest
+/// tested anew, so that one biased strategy does not condemn the others; of two that differ,
+/// neither is trusted. error: the probability that any of them is called biased and is not
+/// (Bonferroni over strategies and regions). Differences of a few float roundings (4e-6 of the
+/// mean) are no bias.
+std::vector<BiasFinding> find_bias(std::span<const StrategyMeasurements* const> strategies,
+                                   double error);
+
+}  // namespace mis

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "mis/compare/report.h"
+
+#include <span>
+#include <vector>
+
+namespace mis {
+
+/// What is known of the logarithm of a positive figure: its value, standard error and degrees of
+/// freedom (Student's t). se is NaN where nothing is known of the error; 0 where there is none.
+struct LogEstimate {
+    double value = 0, se = 0, dof = 0;
+};
+
+/// The logarithm of the product of two independent figures; degrees of freedom after Welch (1947)
+/// and Satterthwaite (1946).
+LogEstimate product(const LogEstimate& a, const LogEstimate& b);
+
+/// weight_a·log(mean of a) − weight_b·log(mean of b), over the same replicates; each half only
+/// where its weight is not 0. The error is the jackknife's over the replicates (Miller 1974). It is
+/// that of the logarithm of the mean, where the mean of the replicates' logarithms would be too low
+/// by half their squared spread, so that the noisier strategy would win; and a replicate of 0 does
+/// no harm. Unknown for fewer than two replicates, or if all but one are 0.
+LogEstimate log_contrast(std::span<const double> a, double weight_a, std::span<const double> b,
+                         double weight_b);
+
+/// log(mean of replicates), with its jackknife error.
+LogEstimate log_mean(std::span<const double> replicates);
+
+/// The median of `values`, with a standard error from the distribution-free interval between two of
+/// them (David and Nagaraja 2003, §7.1): what disturbs a clock is one-sided and large. Fewer than
+/// six: from Student's t.
+LogEstimate median(std::vector<double> values);
+
+/// P(|T| ≥ |value − at| / se): how surprising the estimate is if the truth is `at`. 1 where the
+/// error is not known.
+double two_sided_p(const LogEstimate& estimate, double at = 0);
+
+/// P(T ≥ t) of Student's t.
+double upper_tail(double t, double dof);
+
+/// The t that is exceeded with probability `tail`.
+double t_quantile(double tail, double dof);
+
+/// exp of the estimate and of its 95 % interval; NaN bounds where the error is not known.
+Interval interval_of(const LogEstimate& log_figure);
+
+/// The same interval about another centre: the figure pooled over all samples, not the mean of the
+/// replicates'.
+Interval interval_about(double centre, const LogEstimate& log_figure);
+
+/// Not known.
+Interval unknown_interval();
+
+/// Mean of some numbers, and its standard error (NaN for fewer than two).
+struct MeanAndError {
+    double mean = 0, se = 0;
+};
+MeanAndError mean_and_error(std::span<const double> values);
+
+}  // namespace mis

@@ -1,0 +1,71 @@
+#include "mis/compare/explain.h"
+
+#include "mis/math/stable.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace mis {
+
+namespace {
+
+void count_lights(Explanation& found, const Lights& lights)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    found.lights = lights.size();
+    found.radius = found.power = {infinity, 0};
+    for (const Light& light : lights) {
+        const double power = luminance_radius(light) * light.radius * 4 * square(pi<double>);
+        found.black_lights += power > 0 ? 0 : 1;
+        found.radius = {std::min(found.radius.low, light.radius), std::max(found.radius.high, light.radius)};
+        found.power = {std::min(found.power.low, power), std::max(found.power.high, power)};
+    }
+}
+
+void count_surfaces(Explanation& found, const std::vector<Surface>& surfaces)
+{
+    for (const Surface& surface : surfaces) {
+        found.quads += std::holds_alternative<Quad>(surface.shape) ? 1 : 0;
+        found.spheres += std::holds_alternative<SphereSurface>(surface.shape) ? 1 : 0;
+        if (const auto* mesh = std::get_if<Mesh>(&surface.shape)) ++found.meshes, found.triangles += mesh->triangles.size();
+    }
+}
+
+void count_points(Explanation& found, const GBuffer& shading)
+{
+    found.shading_points += shading.points.size() + shading.dark.size();
+    found.dark_points += shading.dark.size();
+    found.background_pixels += shading.background.size();
+    found.tiles += shading.tiles.size();
+    for (const Tile& tile : shading.tiles)
+        found.materials[static_cast<std::size_t>(tile.material)].shading_points += tile.count;
+}
+
+}  // namespace
+
+Explanation explain(const LitScene& lit, const AnyExecutor& executor)
+{
+    const Scene& scene = lit.scene();
+    Explanation found;
+    found.file = scene.file;
+    found.name = scene.name;
+    count_lights(found, scene.lights);
+    count_surfaces(found, scene.surfaces);
+    for (const Material& material : scene.materials) found.materials.push_back({material.name, material.type, 0});
+    if (scene.camera) {
+        found.width = scene.camera->resolution[0];
+        found.height = scene.camera->resolution[1];
+        // Band by band: the largest picture's points need not fit into memory to be counted.
+        for (int row = 0; row < found.height; row += 256)
+            count_points(found, find_shading_points(scene, lit.lights(), lit.surfaces(), row,
+                                                    std::min(256, found.height - row), executor));
+    }
+    found.probes = scene.probes.size();
+    count_points(found, probe_points(scene, lit.lights(), lit.surfaces()));
+    found.effects = explained(scene, lit.effects());
+    found.light_bytes = scene.lights.size() * sizeof(Light);
+    found.hierarchy_bytes = lit.lights().bytes();
+    return found;
+}
+
+}  // namespace mis

@@ -1,0 +1,172 @@
+#include "mis/compare/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double interval_tail = 0.025;  // every interval is 95 %
+
+/// Logarithm of the median of `seconds`; a NaN value where there is none above 0.
+LogEstimate log_median(const std::vector<double>& seconds)
+{
+    const LogEstimate linear = median(seconds);
+    return {linear.value > 0 ? std::log(linear.value) : std::numeric_limits<double>::quiet_NaN(),
+            linear.se / linear.value, linear.dof};
+}
+
+/// Logarithm of the ratio of the medians; its error from the rounds that both took part in, which a
+/// drifting machine disturbed alike.
+LogEstimate log_median_ratio(const std::vector<double>& a, const std::vector<double>& b)
+{
+    std::vector<double> logs;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        if (a[i] > 0 && b[i] > 0)
+            logs.push_back(std::log(a[i] / b[i]));  // a coarse clock may say 0
+    LogEstimate paired = median(std::move(logs));
+    paired.value = log_median(a).value - log_median(b).value;
+    return paired;
+}
+
+Interval interval_of_median(std::vector<double> values)
+{
+    const LogEstimate m = median(std::move(values));
+    if (std::isnan(m.se)) return {m.value, m.se, m.se};
+    const double half_width = m.se > 0 ? t_quantile(interval_tail, m.dof) * m.se : 0;
+    return {m.value, std::max(0.0, m.value - half_width), m.value + half_width};
+}
+
+/// Of one point, from its own samples. The interval is normal in the logarithm; none where fewer
+/// than 30 samples carry the variance, as such a standard error means little.
+PointFigures point_figures(const Moments& moments)
+{
+    const double variance = moments.variance();
+    const bool known = moments.effective_count() >= 30;
+    const double se = moments.m2 == 0 ? 0
+                      : known         ? moments.variance_se() / variance
+                                      : std::numeric_limits<double>::quiet_NaN();
+    return {moments.mean, moments.mean_se(), interval_about(variance, {0, se, 1e6})};
+}
+
+void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figures& figures)
+{
+    std::vector<double> per_sample, per_point;
+    for (const TimeObservation& time : s.times) {
+        per_sample.push_back(time.seconds_per_sample);
+        per_point.push_back(time.seconds_per_point);
+    }
+    report.seconds_per_sample = interval_of_median(per_sample);
+    report.seconds_per_point = interval_of_median(per_point);
+    const double samples = static_cast<double>(std::max<std::uint64_t>(s.pooled.samples, 1));
+    for (const auto& [stage, seconds] : s.stage_seconds)
+        report.stage_seconds[stage] = seconds / samples;
+    report.rays_per_sample = static_cast<double>(s.rays) / samples;
+    const LogEstimate seconds = log_median(figures.seconds_at);
+    if (figures.exact) {
+        report.efficiency =
+            std::isnan(seconds.value) ? unknown_interval() : Interval{infinity, infinity, infinity};
+        return;
+    }
+    LogEstimate cost = product(log_mean(figures.variances), seconds);
+    report.efficiency = interval_about(1 / (figures.variance * std::exp(seconds.value)), cost);
+}
+
+}  // namespace
+
+Figures figures_of(const StrategyMeasurements& s, double at)
+{
+    Figures f;
+    f.exact = s.all_samples_equal_reference;
+    f.variance = f.exact ? 0 : s.pooled.variance;
+    f.relative_variance = f.exact ? 0 : s.pooled.relative_variance;
+    f.samples_to_1_percent = std::max(1.0, f.relative_variance / one_percent_squared);
+    for (const ReplicateValues& replicate : s.replicates) {
+        f.variances.push_back(replicate.variance);
+        f.relative_variances.push_back(replicate.relative_variance);
+    }
+    for (const TimeObservation& time : s.times) {
+        f.seconds_at.push_back(time.seconds_per_sample + time.seconds_per_point / at);
+        f.seconds_to_1_percent.push_back(f.samples_to_1_percent * time.seconds_per_sample +
+                                         time.seconds_per_point);
+    }
+    if (f.samples_to_1_percent > 1 && !s.times.empty()) {
+        double sampling = 0, all = 0;
+        for (std::size_t i = 0; i < s.times.size(); ++i) {
+            sampling += f.samples_to_1_percent * s.times[i].seconds_per_sample;
+            all += f.seconds_to_1_percent[i];
+        }
+        f.sampling_share = all > 0 ? sampling / all : 1;
+    }
+    return f;
+}
+
+LogEstimate log_variance_ratio(const Figures& a, const Figures& b)
+{
+    if (a.exact || b.exact) return {a.exact && b.exact ? 0 : a.exact ? -infinity : infinity, 0, 1};
+    const std::size_t n = std::min(a.variances.size(), b.variances.size());
+    LogEstimate ratio =
+        log_contrast(std::span(a.variances).first(n), 1, std::span(b.variances).first(n), 1);
+    ratio.value = std::log(a.variance / b.variance);
+    return ratio;
+}
+
+LogEstimate log_cost_ratio(const Figures& a, const Figures& b)
+{
+    const LogEstimate variance = log_variance_ratio(a, b),
+                      seconds = log_median_ratio(a.seconds_at, b.seconds_at);
+    if (std::isnan(seconds.value)) return seconds;
+    return std::isinf(variance.value) ? variance : product(variance, seconds);
+}
+
+LogEstimate log_time_ratio(const Figures& a, const Figures& b)
+{
+    const std::size_t n = std::min(a.relative_variances.size(), b.relative_variances.size());
+    LogEstimate samples = log_contrast(std::span(a.relative_variances).first(n), a.sampling_share,
+                                       std::span(b.relative_variances).first(n), b.sampling_share);
+    samples.value = 0;  // is in the seconds already
+    return product(samples, log_median_ratio(a.seconds_to_1_percent, b.seconds_to_1_percent));
+}
+
+StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, std::size_t points,
+                         int threads)
+{
+    StrategyReport report;
+    report.strategy = s.strategy;
+    report.exact = figures.exact;
+    report.samples = s.pooled.samples;
+    report.estimated_seconds = s.estimated_seconds;
+    report.invalid_samples = s.invalid_samples;
+    if (!s.was_run) {
+        report.mean = report.mean_se = report.rays_per_sample = unknown_interval().value;
+        report.variance = report.relative_variance = report.seconds_per_point =
+            report.seconds_per_sample = report.efficiency = report.seconds_to_1_percent =
+                unknown_interval();
+        return report;
+    }
+    std::vector<double> means;
+    for (const ReplicateValues& replicate : s.replicates) means.push_back(replicate.mean);
+    report.mean = s.pooled.mean;
+    report.mean_se = figures.exact ? 0 : mean_and_error(means).se;
+    report.variance =
+        figures.exact ? Interval{} : interval_about(figures.variance, log_mean(figures.variances));
+    report.relative_variance = figures.exact ? Interval{}
+                                             : interval_about(figures.relative_variance,
+                                                              log_mean(figures.relative_variances));
+    report.rare_share = figures.exact ? 0 : s.pooled.rare_share;
+    report.effective_samples = s.pooled.participation.number();
+    add_times(report, s, figures);
+    LogEstimate to_1_percent =
+        product(log_contrast(figures.relative_variances, figures.sampling_share, {}, 0),
+                log_median(figures.seconds_to_1_percent));
+    report.seconds_to_1_percent =
+        interval_about(std::exp(log_median(figures.seconds_to_1_percent).value) *
+                           static_cast<double>(points) / threads,
+                       to_1_percent);
+    for (const Moments& probe : s.probes) report.probes.push_back(point_figures(probe));
+    return report;
+}
+
+}  // namespace mis

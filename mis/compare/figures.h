@@ -1,0 +1,45 @@
+#pragma once
+
+#include "mis/compare/estimate.h"
+#include "mis/compare/measurements.h"
+
+#include <vector>
+
+namespace mis {
+
+/// Samples per point for 1 % error = relative variance over this (the root of the mean relative
+/// variance is 1 %).
+inline constexpr double one_percent_squared = 1e-4;
+
+/// What comparisons of one strategy take, in the form they take it.
+struct Figures {
+    bool exact = false;  ///< variance 0, proved
+    double variance = 0, relative_variance = 0;
+    std::vector<double> variances, relative_variances;  ///< per replicate
+    std::vector<double>
+        seconds_at;  ///< per observation: seconds per sample, with its part of a point at n samples
+    std::vector<double> seconds_to_1_percent;  ///< per observation: CPU seconds per point
+    double samples_to_1_percent = 0;           ///< per point, at least 1
+    double sampling_share = 0;                 ///< d log(seconds to 1 %) / d log(relative variance)
+};
+
+/// at: samples per point that a point's preparation is shared by.
+Figures figures_of(const StrategyMeasurements& strategy, double at);
+
+/// Logarithm of a's variance over b's, over the same replicates. ∓∞ where one is exact, 0 where
+/// both are.
+LogEstimate log_variance_ratio(const Figures& a, const Figures& b);
+
+/// Logarithm of a's variance × time over b's (efficiency turned over), times paired by round; of
+/// two exact ones, of the times alone. A NaN value where times are missing.
+LogEstimate log_cost_ratio(const Figures& a, const Figures& b);
+
+/// Logarithm of a's time to 1 % error over b's. A NaN value where times are missing.
+LogEstimate log_time_ratio(const Figures& a, const Figures& b);
+
+/// Fills in what a report says of one strategy by itself, without comparison: all of its figures
+/// but no status and rank. points: of the scene; threads: that the wall time to 1 % is for.
+StrategyReport report_of(const StrategyMeasurements& strategy, const Figures& figures,
+                         std::size_t points, int threads);
+
+}  // namespace mis

@@ -1,0 +1,68 @@
+#include "mis/compare/pool.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace mis {
+namespace {
+
+/// A point's variance is rare samples' when fewer than so many carry it: ten is where its standard
+/// error is a third.
+constexpr double few_samples = 10;
+
+/// Adds the samples of `point`, each d² times `weight`.
+void add(Participation& sum, const Moments& point, double weight)
+{
+    sum.sum_d2 += weight * point.m2;
+    sum.sum_d4 += weight * weight * point.m4;
+}
+
+}  // namespace
+
+PooledFigures pool_points(std::span<const Moments> points, std::span<const double> scale)
+{
+    assert(points.size() == scale.size());
+    PooledFigures pooled;
+    double rare = 0, largest = 0;
+    std::size_t with_variance = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Moments& point = points[i];
+        pooled.samples += point.count;
+        pooled.mean += point.mean;
+        if (point.count < 2) continue;
+        ++with_variance;
+        const double per_sample = 1 / static_cast<double>(point.count - 1),
+                     variance = point.m2 * per_sample;
+        pooled.variance += variance;
+        add(pooled.participation, point, per_sample);
+        largest = std::max(largest, variance);
+        if (point.effective_count() < few_samples) rare += variance;
+        if (scale[i] > 0) {
+            pooled.relative_variance += variance / scale[i];
+            add(pooled.relative_participation, point, per_sample / scale[i]);
+        } else if (variance > 0) {
+            pooled.relative_variance = std::numeric_limits<double>::infinity();
+        }
+    }
+    if (pooled.variance > 0) {
+        pooled.rare_share = rare / pooled.variance;
+        pooled.largest_point_share = largest / pooled.variance;
+    }
+    if (!points.empty()) pooled.mean /= static_cast<double>(points.size());
+    if (with_variance > 0) {
+        pooled.variance /= static_cast<double>(with_variance);
+        pooled.relative_variance /= static_cast<double>(with_variance);
+    }
+    return pooled;
+}
+
+Participation participation_of(std::span<const Moments> points)
+{
+    Participation sum;
+    for (const Moments& point : points)
+        if (point.count >= 2) add(sum, point, 1 / static_cast<double>(point.count - 1));
+    return sum;
+}
+
+}  // namespace mis

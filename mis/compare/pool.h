@@ -1,0 +1,20 @@
+#pragma once
+
+#include "mis/compare/measurements.h"
+
+#include <span>
+
+namespace mis {
+
+/// One strategy's figures over an image, from the moments of each of its shading points.
+/// scale: μ² + ε² of each point, which `relative_variance` divides by; the same numbers for every
+/// strategy (so μ is a reference pooled from all of them, not the strategy's own noisy mean). Where
+/// it is 0 and the variance is not, `relative_variance` is infinite: it has no value there.
+/// Preconditions: as many scales as points; points with fewer than two samples are left out of the
+/// variances.
+PooledFigures pool_points(std::span<const Moments> points, std::span<const double> scale);
+
+/// How many samples carry the variance over these points.
+Participation participation_of(std::span<const Moments> points);
+
+}  // namespace mis

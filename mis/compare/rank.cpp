@@ -1,0 +1,189 @@
+#include "mis/compare/rank.h"
+
+#include "mis/compare/bias.h"
+#include "mis/compare/figures.h"
+#include "mis/compare/pairs.h"
+#include "mis/compare/resolved.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mis {
+namespace {
+
+/// The part of an error probability that this look may spend: Σ 1/(k(k+1)) = 1.
+double share_of(int look) { return look < 1 ? 1 : 1 / (static_cast<double>(look) * (look + 1.0)); }
+
+void exclude(StrategyReport& report, Status status, const std::string& reason)
+{
+    report.status = status;
+    report.reason = reason;
+}
+
+/// Gives each strategy its state.
+void set_states(std::vector<StrategyReport>& reports, const SceneMeasurements& scene,
+                double bias_error)
+{
+    std::vector<const StrategyMeasurements*> resolved;
+    std::vector<std::size_t> index;
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        const StrategyMeasurements& s = scene.strategies[i];
+        const std::string unresolved = s.was_run ? why_not_resolved(s) : "";
+        if (!s.was_run) {
+            exclude(reports[i], Status::not_run, s.not_run_reason);
+        } else if (!unresolved.empty()) {
+            exclude(reports[i], Status::not_resolved, unresolved);
+            reports[i].exact = false;
+        } else {
+            reports[i].status = Status::ranked;
+            resolved.push_back(&s);
+            index.push_back(i);
+        }
+    }
+    const std::vector<BiasFinding> findings = find_bias(resolved, bias_error);
+    for (std::size_t k = 0; k < resolved.size(); ++k) {
+        StrategyReport& report = reports[index[k]];
+        report.bias_p_value = findings[k].p_value;
+        if (!findings[k].biased) continue;
+        const bool may_lack_rare_samples =
+            findings[k].too_low && !resolved[k]->audit.available && !report.exact &&
+            report.effective_samples < least_participation_without_audit;
+        exclude(report, may_lack_rare_samples ? Status::not_resolved : Status::biased,
+                findings[k].reason);
+        report.exact = false;
+    }
+}
+
+using LogRatio = LogEstimate (*)(const Figures&, const Figures&);
+
+/// Members from best to worst by one figure, ties in their own order.
+std::vector<int> sorted_by(LogRatio ratio, std::vector<int> members,
+                           const std::vector<Figures>& figures)
+{
+    std::stable_sort(members.begin(), members.end(),
+                     [&](int a, int b) { return ratio(figures[a], figures[b]).value < 0; });
+    return members;
+}
+
+/// Every pair of `members`, decided.
+std::vector<Comparison> compared_by(LogRatio ratio, const std::vector<int>& members,
+                                    const std::vector<Figures>& figures, double margin,
+                                    double error)
+{
+    std::vector<Comparison> family;
+    for (std::size_t i = 0; i < members.size(); ++i)
+        for (std::size_t j = i + 1; j < members.size(); ++j)
+            family.push_back(
+                {members[i], members[j], ratio(figures[members[i]], figures[members[j]])});
+    decide(family, margin, error);
+    return family;
+}
+
+/// 1 + how many are better: equal figures share a rank.
+int rank_among(LogRatio ratio, int member, const std::vector<int>& members,
+               const std::vector<Figures>& figures)
+{
+    return 1 + static_cast<int>(std::count_if(members.begin(), members.end(), [&](int other) {
+               return ratio(figures[other], figures[member]).value < 0;
+           }));
+}
+
+void set_ranks(std::vector<StrategyReport>& reports, const std::vector<Comparison>& by_variance,
+               const std::vector<int>& members, const std::vector<Figures>& figures)
+{
+    const std::vector<RankInterval> places = rank_intervals(by_variance, members, reports.size());
+    for (const int i : members) {
+        reports[i].rank = rank_among(log_variance_ratio, i, members, figures);
+        reports[i].rank_low = places[i].low;
+        reports[i].rank_high = places[i].high;
+    }
+    for (const Comparison& pair : by_variance) {
+        if (pair.verdict != Verdict::tied) continue;
+        reports[pair.a].tied_with.push_back(name_of(reports[pair.b].strategy));
+        reports[pair.b].tied_with.push_back(name_of(reports[pair.a].strategy));
+    }
+}
+
+void set_ranks_by_efficiency(std::vector<StrategyReport>& reports,
+                             const std::vector<Comparison>& by_cost,
+                             const std::vector<int>& members, const std::vector<Figures>& figures)
+{
+    const std::vector<RankInterval> places = rank_intervals(by_cost, members, reports.size());
+    for (const int i : members) {
+        reports[i].rank_by_efficiency = rank_among(log_cost_ratio, i, members, figures);
+        reports[i].rank_by_efficiency_low = places[i].low;
+        reports[i].rank_by_efficiency_high = places[i].high;
+    }
+}
+
+const Comparison* find(const std::vector<Comparison>& family, int a, int b)
+{
+    const auto it = std::find_if(family.begin(), family.end(), [&](const Comparison& c) {
+        return (c.a == a && c.b == b) || (c.a == b && c.b == a);
+    });
+    return it == family.end() ? nullptr : &*it;
+}
+
+LogEstimate turned_over(LogEstimate ratio)
+{
+    ratio.value = -ratio.value;
+    return ratio;
+}
+
+}  // namespace
+
+Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
+{
+    Ranking ranking;
+    std::vector<Figures> figures;
+    int replicates = std::numeric_limits<int>::max();
+    for (const StrategyMeasurements& s : scene.strategies) {
+        figures.push_back(figures_of(s, options.at));
+        ranking.strategies.push_back(report_of(s, figures.back(), scene.points, options.threads));
+        if (s.was_run) replicates = std::min(replicates, static_cast<int>(s.replicates.size()));
+    }
+    ranking.replicates = replicates == std::numeric_limits<int>::max() ? 0 : replicates;
+    set_states(ranking.strategies, scene, options.bias_error * share_of(options.look));
+
+    std::vector<int> ranked, timed;
+    for (std::size_t i = 0; i < scene.strategies.size(); ++i) {
+        if (ranking.strategies[i].status != Status::ranked) continue;
+        ranked.push_back(static_cast<int>(i));
+        if (!std::isnan(ranking.strategies[i].efficiency.value))
+            timed.push_back(static_cast<int>(i));
+    }
+    ranked = sorted_by(log_variance_ratio, std::move(ranked), figures);
+    const double error = options.family_error * share_of(options.look);
+    const auto by_variance =
+        compared_by(log_variance_ratio, ranked, figures, options.margin, error);
+    const auto by_cost = compared_by(log_cost_ratio, timed, figures, options.margin, error);
+    const auto by_time = compared_by(log_time_ratio, timed, figures, options.margin, error);
+    set_ranks(ranking.strategies, by_variance, ranked, figures);
+    set_ranks_by_efficiency(ranking.strategies, by_cost, timed, figures);
+
+    ranking.settled = !ranked.empty();
+    for (const Comparison& c : by_variance) {
+        PairReport pair;
+        pair.a = c.a;
+        pair.b = c.b;
+        pair.ratio = interval_of(c.log_ratio);
+        pair.verdict = c.verdict;
+        pair.more_replicates =
+            replicates_to_decide(c, by_variance.size(), replicates, options.margin, error);
+        pair.efficiency_ratio = pair.time_ratio = unknown_interval();
+        if (const Comparison* cost = find(by_cost, c.a, c.b)) {
+            const Comparison* time = find(by_time, c.a, c.b);
+            pair.efficiency_ratio =
+                interval_of(turned_over(log_cost_ratio(figures[c.a], figures[c.b])));
+            pair.efficiency_verdict = cost->verdict;
+            pair.time_ratio = interval_of(log_time_ratio(figures[c.a], figures[c.b]));
+            pair.time_verdict = time->verdict;
+        }
+        ranking.settled = ranking.settled && c.verdict != Verdict::undecided;
+        ranking.pairs.push_back(pair);
+    }
+    return ranking;
+}
+
+}  // namespace mis

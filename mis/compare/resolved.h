@@ -1,0 +1,32 @@
+#pragma once
+
+#include "mis/compare/measurements.h"
+
+#include <string>
+
+namespace mis {
+
+/// Fewer samples than this that carry the variance (Participation::number), and it is not resolved.
+/// At 100 the 95 % interval of a variance from 16 replicates still covers 93 to 95 times of 100,
+/// and an `apart` is false at most 1.4 times as often as stated, for samples as skewed as
+/// log-normal ones with σ = 1.5 (tests/compare/calibration_test.cpp); at 20 it is 89, and three
+/// times.
+inline constexpr double least_participation = 100;
+
+/// A relative standard error of the variance above this, and it is not resolved, however many
+/// samples carry it.
+inline constexpr double largest_relative_error = 0.25;
+
+/// The audit fails a strategy if the others' estimate of its variance, less so many of its standard
+/// errors, …
+inline constexpr double audit_errors = 3;
+/// … is above this many times its own measured variance, plus as many of its standard errors.
+inline constexpr double audit_factor = 1.2;
+
+/// Why this strategy's variance is not resolved, in words; empty if it is. Tests, in this order: at
+/// least two replicates; no variance that is zero without a proof; what the other strategies'
+/// samples say (audit); participation in the variance and in the relative variance; spread of the
+/// replicates. Precondition: the strategy was run.
+std::string why_not_resolved(const StrategyMeasurements& strategy);
+
+}  // namespace mis

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "mis/math/vec.h"
+#include "mis/scene/light.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace mis {
+
+/// How many samples a batch holds: its columns together fit the first-level cache.
+inline constexpr int batch_capacity = 256;
+
+/// One quantity of all rows of a batch.
+template <class T> using Column = std::array<T, batch_capacity>;
+
+/// A vector quantity: one column per component.
+template <class T> struct VecColumn {
+    alignas(64) Column<T> x, y, z;
+
+    template <class V> MIS_INLINE Vec3<V> get(int row) const
+    {
+        const auto i = static_cast<std::size_t>(row);
+        return {load<V>(&x[i]), load<V>(&y[i]), load<V>(&z[i])};
+    }
+    template <class V> MIS_INLINE void set(int row, const Vec3<V>& v)
+    {
+        const auto i = static_cast<std::size_t>(row);
+        store(&x[i], v.x), store(&y[i], v.y), store(&z[i], v.z);
+    }
+    Vec3<T> at(int row) const { return get<T>(row); }
+    void put(int row, const Vec3<T>& v) { set<T>(row, v); }
+};
+
+/// Room for the table that a policy leaves for one point; policies keep small trivially copyable views.
+struct alignas(16) TableSlot {
+    std::array<std::byte, 48> bytes;
+};
+
+/// Some hundred samples of one tile, one array per quantity. A half (light draws, or BSDF draws) runs over `rows` rows;
+/// a row belongs to the sample `slot`, to whose `value` it adds. Rows beyond `rows`, up to the next multiple of the
+/// lanes, hold harmless numbers, so that stages need no remainder.
+template <class T> struct Batch {
+    int samples = 0;         ///< in this batch: slots 0 … samples − 1
+    int rows = 0;            ///< of the half that runs now
+    std::uint32_t draw = 0;  ///< number of the draw within the sample
+    std::size_t points = 0;  ///< shading points that have a table here
+    std::uint64_t invalid = 0, shadow_rays = 0;  ///< counted over all batches
+
+    // Per sample.
+    alignas(64) Column<std::int32_t> sample_point;   ///< which of the batch's points
+    alignas(64) Column<std::uint64_t> sample_number;
+    VecColumn<T> value;                              ///< radiance, W·sr⁻¹·m⁻²
+
+    // Per point of this batch.
+    std::array<TableSlot, batch_capacity> tables;
+    std::array<std::uint32_t, batch_capacity> tile_point;  ///< its number in the tile
+
+    // Per row.
+    alignas(64) Column<std::int32_t> slot;
+    alignas(64) Column<std::int32_t> point;     ///< which of the batch's points
+    alignas(64) Column<std::int32_t> light;     ///< or no_light
+    alignas(64) Column<std::uint64_t> bits;     ///< of the choice
+    alignas(64) Column<T> u, v, lobe;           ///< in [0, 1)
+    VecColumn<T> n;                             ///< shading normal
+    VecColumn<T> wo;                            ///< in the shading frame
+    VecColumn<T> wi;                            ///< in scene axes
+    VecColumn<T> offset;                        ///< of a light draw: wi − axis of the cap
+    VecColumn<T> to_center;                     ///< from x to the light's centre
+    alignas(64) Column<T> radius, gap2;         ///< of the light; d² − r²
+    alignas(64) Column<T> distance;             ///< along wi to the light
+    alignas(64) Column<T> probability;          ///< P(j | point)
+    alignas(64) Column<T> light_pdf, bsdf_pdf;  ///< P · pdf of the light technique; pdf of the other, per steradian
+    VecColumn<T> radiance;                      ///< what arrives: over the pdf of the cap for a light draw; see stages
+    VecColumn<T> contribution;                  ///< f cos θ, then the row's share of the estimate; 0 is dead
+};
+
+}  // namespace mis

@@ -1,0 +1,123 @@
+#include "mis/engine/gbuffer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+namespace mis {
+
+namespace {
+
+/// The directions through the pixels' centres.
+class PixelRays {
+public:
+    explicit PixelRays(const Camera& camera) : camera_(camera)
+    {
+        forward_ = normalized(camera.target - camera.position);
+        right_ = normalized(cross(forward_, camera.up));
+        up_ = cross(right_, forward_);
+        half_height_ = std::tan(camera.vertical_fov_degrees * std::numbers::pi / 360);
+    }
+    Vec3<double> direction(int column, int row) const
+    {
+        const double width = camera_.resolution[0], height = camera_.resolution[1];
+        const double across = (2 * (column + 0.5) - width) / height * half_height_;
+        const double above = (height - 2 * (row + 0.5)) / height * half_height_;
+        return normalized(forward_ + right_ * across + up_ * above);
+    }
+
+private:
+    Camera camera_;
+    Vec3<double> forward_, right_, up_;
+    double half_height_;
+};
+
+/// Some points, those that are dark, and those that are none.
+struct Found {
+    std::map<int, std::vector<ShadingPoint>> by_material;
+    std::vector<std::uint32_t> dark;
+    std::vector<Background> background;
+};
+
+/// Files a point under its material, or as dark: on the inside of a light, or seen from below its surface.
+void add_point(Found& found, const ShadingPoint& point, int material, const LightHierarchy& lights)
+{
+    if (!(dot(point.n, point.wo) > 0) || lights.contains(point.x)) found.dark.push_back(point.id);
+    else found.by_material[material].push_back(point);
+}
+
+void add_pixel(Found& found, const Scene& scene, const PixelRays& rays, const LightHierarchy& lights,
+               const SurfaceTracer* surfaces, int column, int row)
+{
+    const auto id = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(scene.camera->resolution[0]) +
+                    static_cast<std::uint32_t>(column);
+    const Vec3<double> origin = scene.camera->position, direction = rays.direction(column, row);
+    const LightHit light = lights.nearest(origin, direction);
+    const std::optional<SurfaceHit> hit = surfaces != nullptr ? surfaces->first_hit(origin, direction) : std::nullopt;
+    if (!hit || light.distance < hit->distance) {
+        found.background.push_back({id, light.light});
+        return;
+    }
+    const Vec3<double> off = hit->x + hit->geometric * hit->offset;
+    add_point(found,
+              {hit->x, vec_cast<float>(hit->n), vec_cast<float>(-direction), vec_cast<float>(off - surfaces->origin()), id},
+              hit->material, lights);
+}
+
+void append(GBuffer& buffer, const Found& found)
+{
+    for (const auto& [material, points] : found.by_material) {
+        buffer.tiles.push_back({static_cast<std::uint32_t>(buffer.points.size()),
+                                static_cast<std::uint32_t>(points.size()), material, points.front().x});
+        buffer.points.insert(buffer.points.end(), points.begin(), points.end());
+    }
+    buffer.dark.insert(buffer.dark.end(), found.dark.begin(), found.dark.end());
+    buffer.background.insert(buffer.background.end(), found.background.begin(), found.background.end());
+}
+
+}  // namespace
+
+GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights, const SurfaceTracer* surfaces,
+                            int first_row, int rows, const AnyExecutor& executor)
+{
+    GBuffer buffer{.width = scene.camera->resolution[0], .height = scene.camera->resolution[1]};
+    buffer.first_row = first_row;
+    buffer.rows = rows;
+    const PixelRays rays(*scene.camera);
+    const int across = (buffer.width + tile_side - 1) / tile_side, down = (rows + tile_side - 1) / tile_side;
+    std::vector<Found> blocks(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+    executor.for_each(blocks.size(), [&](std::size_t b) {
+        const int left = static_cast<int>(b % static_cast<std::size_t>(across)) * tile_side;
+        const int top = first_row + static_cast<int>(b / static_cast<std::size_t>(across)) * tile_side;
+        for (int row = top; row < std::min(top + tile_side, first_row + rows); ++row)
+            for (int column = left; column < std::min(left + tile_side, buffer.width); ++column)
+                add_pixel(blocks[b], scene, rays, lights, surfaces, column, row);
+    });
+    for (const Found& found : blocks) append(buffer, found);
+    return buffer;
+}
+
+GBuffer probe_points(const Scene& scene, const LightHierarchy& lights, const SurfaceTracer* surfaces)
+{
+    GBuffer buffer;
+    const std::uint32_t pixels = scene.camera ? static_cast<std::uint32_t>(scene.camera->resolution[0]) *
+                                                    static_cast<std::uint32_t>(scene.camera->resolution[1])
+                                              : 0;
+    for (std::size_t p = 0; p < scene.probes.size(); ++p) {
+        const Probe& probe = scene.probes[p];
+        Vec3<double> off{0};
+        if (surfaces != nullptr)
+            off = probe.position + probe.normal * surfaces->offset_at(probe.position) - surfaces->origin();
+        Found found;
+        add_point(found,
+                  {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing), vec_cast<float>(off),
+                   pixels + static_cast<std::uint32_t>(p)},
+                  probe.material, lights);
+        append(buffer, found);
+    }
+    return buffer;
+}
+
+}  // namespace mis

@@ -1,0 +1,83 @@
+#include "mis/engine/kernels.h"
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+namespace mis {
+
+// One pair per instruction set that was compiled (engine/kernels.cpp).
+#define MIS_DECLARE_KERNELS(isa)                  \
+    const Kernels<float>& kernels_float_##isa();   \
+    const Kernels<double>& kernels_double_##isa();
+MIS_DECLARE_KERNELS(scalar)
+MIS_DECLARE_KERNELS(avx2)
+MIS_DECLARE_KERNELS(avx512)
+MIS_DECLARE_KERNELS(neon64)
+#undef MIS_DECLARE_KERNELS
+
+namespace {
+
+struct InstructionSet {
+    std::string_view name;
+    const Kernels<float>& (*kernels_float)();
+    const Kernels<double>& (*kernels_double)();
+};
+
+/// Best first.
+std::vector<InstructionSet> available()
+{
+    std::vector<InstructionSet> sets;
+#if defined(MIS_HAS_AVX512)
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512cd"))
+        sets.push_back({"avx512", kernels_float_avx512, kernels_double_avx512});
+#endif
+#if defined(MIS_HAS_AVX2)
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        sets.push_back({"avx2", kernels_float_avx2, kernels_double_avx2});
+#endif
+#if defined(MIS_HAS_NEON64)
+    sets.push_back({"neon64", kernels_float_neon64, kernels_double_neon64});
+#endif
+    sets.push_back({"scalar", kernels_float_scalar, kernels_double_scalar});
+    return sets;
+}
+
+InstructionSet chosen(std::string_view name)
+{
+    const std::vector<InstructionSet> sets = available();
+    if (name.empty()) return sets.front();
+    std::string known;
+    for (const InstructionSet& set : sets) {
+        if (set.name == name) return set;
+        known += (known.empty() ? "" : ", ") + std::string(set.name);
+    }
+    throw std::runtime_error("instruction set: found \"" + std::string(name) + "\"; this processor and this build have " +
+                             known);
+}
+
+}  // namespace
+
+std::vector<std::string_view> instruction_sets()
+{
+    std::vector<std::string_view> names;
+    for (const InstructionSet& set : available()) names.push_back(set.name);
+    return names;
+}
+
+template <> const Kernels<float>& kernels_of<float>(std::string_view name) { return chosen(name).kernels_float(); }
+template <> const Kernels<double>& kernels_of<double>(std::string_view name) { return chosen(name).kernels_double(); }
+
+namespace {
+std::string_view wanted()
+{
+    const char* name = std::getenv("MIS_ISA");
+    return name != nullptr ? name : "";
+}
+}  // namespace
+
+template <> const Kernels<float>& kernels<float>() { return kernels_of<float>(wanted()); }
+template <> const Kernels<double>& kernels<double>() { return kernels_of<double>(wanted()); }
+
+}  // namespace mis

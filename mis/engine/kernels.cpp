@@ -1,0 +1,103 @@
+// Compiled once per instruction set (MIS_ISA), each time with the flags of that set. What stands here and in the stages'
+// headers lives in an inline namespace of its own, so that no other code is ever linked to it but through the tables.
+#include "mis/engine/kernels.h"
+
+#include "mis/bsdf/registry.h"
+#include "mis/engine/stages_bsdf.h"
+#include "mis/engine/stages_light.h"
+#include "mis/heuristic/registry.h"
+#include "mis/policy/registry.h"
+#include "mis/technique/registry.h"
+
+#include <new>
+
+namespace mis {
+inline namespace MIS_ISA {
+
+namespace instruction_set {
+#define MIS_TEXT_OF(x) #x
+#define MIS_TEXT(x) MIS_TEXT_OF(x)
+constexpr std::string_view name = MIS_TEXT(MIS_ISA);
+
+template <class T> struct scalar {
+    using Lanes = T;
+};
+#if !defined(MIS_WITHOUT_LANES)
+template <class T> struct avx2 {
+    using Lanes = xsimd::batch<T, xsimd::fma3<xsimd::avx2>>;
+};
+template <class T> struct avx512 {
+    using Lanes = xsimd::batch<T, xsimd::avx512bw>;
+};
+template <class T> struct neon64 {
+    using Lanes = xsimd::batch<T, xsimd::neon64>;
+};
+#endif
+template <class T> using Lanes = typename MIS_ISA<T>::Lanes;
+}  // namespace instruction_set
+
+template <class Policy, class V, class T>
+using TableOf = decltype(std::declval<const Policy&>().template prepare<V>(
+    std::declval<const ChoicePoint<T>&>(), std::declval<const LightColumns<T>&>(), std::declval<Scratch&>()));
+
+/// Leaves a policy's table for each point of the batch from `first` on.
+template <class V, class Policy, class T>
+void prepare_tables(const TileJob<T>& job, Batch<T>& batch, std::size_t first, Scratch& scratch)
+{
+    const Policy& policy = *static_cast<const Policy*>(job.policy);
+    for (std::size_t p = first; p < batch.points; ++p) {
+        const ShadingPoint& point = job.points[batch.tile_point[p]];
+        const ChoicePoint<T> seen{vec_cast<T>(point.x - job.origin), vec_cast<T>(point.n)};
+        ::new (&batch.tables[p]) TableOf<Policy, V, T>(policy.template prepare<V>(seen, job.columns, scratch));
+    }
+}
+
+template <class T> Kernels<T> make_kernels()
+{
+    using V = instruction_set::Lanes<T>;
+    Kernels<T> kernels{};
+    kernels.instruction_set = instruction_set::name;
+    kernels.lanes = lane_count<V>;
+    kernels.light_numbers = light_numbers<T>;
+    kernels.bsdf_numbers = bsdf_numbers<T>;
+    kernels.weigh_alone = weigh_alone<V, T>;
+    for_each_type(Policies{}, [&]<class P>() {
+        using Table = TableOf<P, V, T>;
+        kernels.policies.push_back({P::name, P::draws_every_light, P::looks_at_point, P::table_bytes,
+                                    prepare_tables<V, P, T>, choose_light<P, Table, T>,
+                                    price_light<Table, T>, sum_light_draw<Table, T>, sum_bsdf_draw<Table, T>});
+    });
+    for_each_type(Techniques{}, [&]<class K>() {
+        if constexpr (K::chooses_light)
+            kernels.light_techniques.push_back({K::name, K::sums_lights, draw_light<V, K, T>, pdf_of_light<V, K, T>});
+        else
+            for_each_type(Bsdfs{}, [&]<class B>() {
+                kernels.directions.push_back(
+                    {K::name, B::name, draw_direction<V, B, K, T>, pdf_of_direction<V, K, T>});
+            });
+    });
+    for_each_type(Bsdfs{}, [&]<class B>() { kernels.bsdfs.push_back({B::name, evaluate_bsdf<V, B, T>}); });
+    for_each_type(Heuristics{}, [&]<class H>() {
+        kernels.heuristics.push_back({H::name, weigh_light<V, H, T>, weigh_bsdf<V, H, T>});
+    });
+    return kernels;
+}
+
+}  // namespace MIS_ISA
+
+#define MIS_JOIN_OF(a, b) a##b
+#define MIS_JOIN(a, b) MIS_JOIN_OF(a, b)
+
+/// What the engine calls: kernels_float_avx2() and its kin (engine/kernel_choice.cpp).
+const Kernels<float>& MIS_JOIN(kernels_float_, MIS_ISA)()
+{
+    static const Kernels<float> kernels = make_kernels<float>();
+    return kernels;
+}
+const Kernels<double>& MIS_JOIN(kernels_double_, MIS_ISA)()
+{
+    static const Kernels<double> kernels = make_kernels<double>();
+    return kernels;
+}
+
+}  // namespace mis

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "mis/engine/job.h"
+#include "mis/scene/material.h"
+#include "mis/strategy/strategy.h"
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace mis {
+
+/// The stages that a policy brings.
+template <class T> struct PolicyStages {
+    std::string_view name;
+    bool draws_every_light, looks_at_point;
+    std::size_t (*table_bytes)(std::size_t lights);
+    PrepareStage<T> prepare;
+    Stage<T> choose;       ///< bits → light, probability
+    Stage<T> probability;  ///< light → probability
+    Stage<T> sum_light_draw, sum_bsdf_draw;  ///< of the union: all lights along wi → light_pdf, radiance, distance
+};
+
+template <class T> struct LightTechniqueStages {
+    std::string_view name;
+    bool sums_lights;
+    Stage<T> draw;  ///< light, u, v → wi, offset, distance, light_pdf, radiance over pdf
+    Stage<T> pdf;   ///< light, wi → light_pdf, radiance
+};
+
+template <class T> struct BsdfStages {
+    std::string_view name;
+    Stage<T> evaluate;  ///< wi → contribution (f cos θ), bsdf_pdf
+};
+
+/// A draw over the hemisphere by one BSDF under one direction technique.
+template <class T> struct DirectionStages {
+    std::string_view technique, bsdf;
+    Stage<T> draw;  ///< lobe, u, v → wi; a lost draw has wi = 0
+    Stage<T> pdf;   ///< wi, bsdf_pdf → bsdf_pdf of the technique
+};
+
+template <class T> struct HeuristicStages {
+    std::string_view name;
+    Stage<T> weigh_light, weigh_bsdf;  ///< contribution: f cos θ → share of the estimate
+};
+
+/// All stages for one number type and instruction set.
+template <class T> struct Kernels {
+    std::string_view instruction_set;
+    std::size_t lanes;
+    Stage<T> light_numbers, bsdf_numbers;
+    Stage<T> weigh_alone;  ///< contribution = f cos θ · L/pdf
+    std::vector<PolicyStages<T>> policies;
+    std::vector<LightTechniqueStages<T>> light_techniques;
+    std::vector<BsdfStages<T>> bsdfs;
+    std::vector<DirectionStages<T>> directions;
+    std::vector<HeuristicStages<T>> heuristics;
+};
+
+/// The kernels of the best instruction set that this processor has, or of the one that the environment variable
+/// MIS_ISA names. Throws std::runtime_error where that is unknown or not to be had here.
+template <class T> const Kernels<T>& kernels();
+
+/// The names of the instruction sets that were compiled and that this processor can run, best first.
+std::vector<std::string_view> instruction_sets();
+
+/// The kernels of one instruction set. Throws std::runtime_error as kernels() does.
+template <class T> const Kernels<T>& kernels_of(std::string_view instruction_set);
+
+}  // namespace mis

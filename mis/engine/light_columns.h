@@ -1,0 +1,30 @@
+#pragma once
+
+#include "mis/policy/light_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace mis {
+
+/// The lights as columns relative to `origin`, in `storage`. Linear in the number of lights.
+template <class T>
+LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& origin, std::vector<T>& storage)
+{
+    const std::size_t count = lights.size(), padded = (count + 15) / 16 * 16;
+    storage.assign(padded * 5, T(1));  // the padding is a light of radius 1 at distance √3: finite, and never read
+    std::array<std::span<T>, 5> column;
+    for (std::size_t k = 0; k < 5; ++k) column[k] = std::span(storage).subspan(k * padded, padded);
+    double largest = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+        const Vec3<T> center = vec_cast<T>(lights[j].center - origin);
+        column[0][j] = center.x, column[1][j] = center.y, column[2][j] = center.z;
+        column[3][j] = static_cast<T>(lights[j].radius);
+        column[4][j] = static_cast<T>(luminance_radius(lights[j]));
+        largest = std::max(largest, lights[j].radius);
+    }
+    return {count, column[0], column[1], column[2], column[3], column[4], static_cast<T>(1 / largest)};
+}
+
+}  // namespace mis

@@ -1,0 +1,119 @@
+#include "mis/engine/pipeline.h"
+
+#include "mis/engine/stages_trace.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace mis {
+
+namespace {
+
+template <class List> const auto& named(const List& list, std::string_view name)
+{
+    for (const auto& entry : list)
+        if (entry.name == name) return entry;
+    throw std::out_of_range("no stage is made for " + std::string(name));
+}
+
+template <class T>
+const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view technique, std::string_view bsdf)
+{
+    for (const DirectionStages<T>& entry : kernels.directions)
+        if (entry.technique == technique && entry.bsdf == bsdf) return entry;
+    throw std::out_of_range("no draw is made for " + std::string(technique) + " on " + std::string(bsdf));
+}
+
+/// Surfaces, then sum: how either half ends.
+template <class T> void add_ending(std::vector<NamedStage<T>>& stages, const Effects& effects)
+{
+    if (effects.shadows) stages.push_back({StageKind::rays, hide_by_surfaces<T>});
+    stages.push_back({StageKind::add, add_contributions<T>});
+}
+
+template <class T>
+std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
+                                      const Effects& effects)
+{
+    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
+    const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
+    std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
+    if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_light_rows<T>});
+    stages.push_back({StageKind::numbers, kernels.light_numbers});
+    stages.push_back({StageKind::choose, policy.choose});
+    stages.push_back({StageKind::draw, technique.draw});
+    if (technique.sums_lights && effects.light_occlusion) stages.push_back({StageKind::meet, policy.sum_light_draw});
+    stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
+    stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_light});
+    if (!technique.sums_lights && effects.light_occlusion)
+        stages.push_back({StageKind::light_occlusion, hide_by_lights<T>});
+    add_ending(stages, effects);
+    return stages;
+}
+
+/// A BSDF draw beside light draws.
+template <class T>
+std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
+                                     const Effects& effects)
+{
+    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
+    const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
+    std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
+    if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_bsdf_rows<T>});
+    stages.push_back({StageKind::numbers, kernels.bsdf_numbers});
+    stages.push_back({StageKind::draw, direction(kernels, "brdf", bsdf).draw});
+    stages.push_back({StageKind::meet, meet_lights<T>});
+    stages.push_back({StageKind::choose, policy.probability});
+    stages.push_back({StageKind::draw, technique.pdf});
+    if (technique.sums_lights && effects.light_occlusion) stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
+    stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
+    stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_bsdf});
+    add_ending(stages, effects);
+    return stages;
+}
+
+/// A direction technique by itself.
+template <class T>
+std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
+                                           const Effects& effects)
+{
+    const DirectionStages<T>& draw = direction(kernels, s.technique, bsdf);
+    std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>},
+                                      {StageKind::numbers, kernels.bsdf_numbers},
+                                      {StageKind::draw, draw.draw},
+                                      {StageKind::meet, meet_lights<T>},
+                                      {StageKind::draw, fetch_radiance<T>},
+                                      {StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate},
+                                      {StageKind::bsdf, draw.pdf},
+                                      {StageKind::weigh, kernels.weigh_alone}};
+    add_ending(stages, effects);
+    return stages;
+}
+
+}  // namespace
+
+template <class T>
+Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf, const Effects& effects)
+{
+    Pipeline<T> pipeline;
+    if (!s.chooses_light()) {
+        pipeline.bsdf = direction_alone(kernels, s, bsdf, effects);
+        pipeline.bsdf_draws = 1;
+        return pipeline;
+    }
+    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
+    pipeline.prepare = policy.prepare;
+    pipeline.draws_every_light = policy.draws_every_light;
+    pipeline.looks_at_point = policy.looks_at_point;
+    pipeline.table_bytes = policy.table_bytes(effects.lights);
+    pipeline.light = light_half(kernels, s, bsdf, effects);
+    pipeline.light_draws = s.counts[0];
+    pipeline.bsdf_draws = s.counts[1];
+    if (pipeline.bsdf_draws > 0) pipeline.bsdf = bsdf_half(kernels, s, bsdf, effects);
+    return pipeline;
+}
+
+template Pipeline<float> compose(const Kernels<float>&, const Strategy&, std::string_view, const Effects&);
+template Pipeline<double> compose(const Kernels<double>&, const Strategy&, std::string_view, const Effects&);
+
+}  // namespace mis

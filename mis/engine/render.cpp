@@ -1,0 +1,41 @@
+#include "mis/engine/render.h"
+
+namespace mis {
+
+Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor)
+{
+    Band band{find_shading_points(scene.scene(), scene.lights(), scene.surfaces(), first_row, rows, executor), {}};
+    band.results.resize(band.shading.points.size());
+    return band;
+}
+
+TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first, int count,
+                      WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+{
+    const GBuffer& shading = band.shading;
+    std::vector<TileTotals> totals(shading.tiles.size());
+    executor.for_each(shading.tiles.size(), [&](std::size_t t) {
+        const Tile& tile = shading.tiles[t];
+        const auto points = std::span(shading.points).subspan(tile.first, tile.count);
+        workspaces.with([&](Workspace<float>& workspace) {
+            totals[t] = workspace.run(strategy.job(tile, points), strategy.pipeline(tile.material),
+                                      {.first = first, .chunk = count, .chunks = 1},
+                                      std::span(band.results).subspan(tile.first, tile.count), {}, {});
+        });
+    });
+    TileTotals sum;
+    for (const TileTotals& t : totals) sum.add(t);
+    return sum;
+}
+
+void draw_band(const LitScene& scene, const Band& band, Image& image)
+{
+    for (std::size_t p = 0; p < band.results.size(); ++p)
+        image.pixels[band.shading.points[p].id] = vec_cast<float>(band.results[p].mean());
+    for (const Background& pixel : band.shading.background)
+        if (pixel.light >= 0)
+            image.pixels[pixel.pixel] =
+                vec_cast<float>(radiance(scene.scene().lights[static_cast<std::size_t>(pixel.light)]));
+}
+
+}  // namespace mis

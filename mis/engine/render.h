@@ -1,0 +1,32 @@
+#pragma once
+
+#include "mis/engine/lit_scene.h"
+
+#include <functional>
+#include <vector>
+
+namespace mis {
+
+/// A picture: linear RGB radiance, row by row from the top.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<Vec3<float>> pixels;
+};
+
+/// What one strategy made of some rows of a picture.
+struct Band {
+    GBuffer shading;
+    std::vector<PointResult> results;  ///< one per shading point
+};
+
+/// The shading points of a picture's rows, unlit.
+Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor);
+
+/// Adds samples [first, first + count) to every shading point. Returns what it cost.
+TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first, int count,
+                      WorkspacePool<float>& workspaces, const AnyExecutor& executor);
+
+/// The band's pixels into the image: means at shading points, lights that the camera sees, black elsewhere.
+void draw_band(const LitScene& scene, const Band& band, Image& image);
+
+}  // namespace mis

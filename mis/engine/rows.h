@@ -1,0 +1,44 @@
+#pragma once
+
+#include "mis/engine/job.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace mis {
+
+/// body(row) for the first row of every group of lanes; V is the batch of lanes, or a plain number.
+template <class V, class Body> MIS_INLINE void for_each_lane_group(int rows, const Body& body)
+{
+    for (int row = 0; row < rows; row += static_cast<int>(lane_count<V>)) body(row);
+}
+
+/// Lanes [row, row + lane_count) of a column.
+template <class V, class T> MIS_INLINE V lanes_of(const Column<T>& column, int row)
+{
+    return load<V>(&column[static_cast<std::size_t>(row)]);
+}
+template <class V, class T> MIS_INLINE void set_lanes(Column<T>& column, int row, const V& value)
+{
+    store(&column[static_cast<std::size_t>(row)], value);
+}
+
+template <class T> MIS_INLINE bool is_zero(const VecColumn<T>& column, int row)
+{
+    const auto i = static_cast<std::size_t>(row);
+    return column.x[i] == 0 && column.y[i] == 0 && column.z[i] == 0;
+}
+
+/// The table that `Policy` left for a point of the batch.
+template <class Table, class T> MIS_INLINE const Table& table_of(const Batch<T>& batch, std::int32_t point)
+{
+    static_assert(sizeof(Table) <= sizeof(TableSlot) && std::is_trivially_copyable_v<Table>);
+    return *reinterpret_cast<const Table*>(&batch.tables[static_cast<std::size_t>(point)]);
+}
+
+template <class T> MIS_INLINE const ShadingPoint& shading_point(const TileJob<T>& job, const Batch<T>& batch, int row)
+{
+    return job.points[batch.tile_point[static_cast<std::size_t>(batch.point[static_cast<std::size_t>(row)])]];
+}
+
+}  // namespace mis

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "mis/bsdf/bsdf.h"
+#include "mis/policy/light_choice.h"
+#include "mis/scene/scene.h"
+
+#include <array>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace mis {
+
+// The registered formulas in double, one point at a time, by name: for what checks the pipeline, not for what is timed.
+
+/// A BSDF in the shading frame.
+struct ScalarBsdf {
+    std::function<BsdfValue<double>(const Vec3<double>& wo, const Vec3<double>& wi)> evaluate;
+    std::function<Vec3<double>(const Vec3<double>& wo, double lobe, const Vec2<double>& u)> sample;
+    bool draws = true;
+};
+
+/// Throws std::out_of_range for an unknown type.
+ScalarBsdf scalar_bsdf(const Material& material);
+
+/// A heuristic's weight of technique i (0: light, 1: BSDF), from the densities of both. Throws std::out_of_range.
+using ScalarHeuristic = std::function<double(const std::array<double, 2>& density, std::size_t i)>;
+ScalarHeuristic scalar_heuristic(std::string_view name);
+
+/// A technique, by what prices a direction: in the cap of one light, or over the hemisphere of the shading frame.
+struct ScalarTechnique {
+    bool sums_lights = false;
+    std::function<double(const Cap<double>&, const Vec3<double>& n, double cos_theta)> light_pdf;
+    std::function<double(double bsdf_pdf, const Vec3<double>& wi)> direction_pdf;
+};
+
+/// Throws std::out_of_range for an unknown name.
+ScalarTechnique scalar_technique(std::string_view name);
+
+/// A policy; at(x, n) prepares a point. What it returns is good until the next call.
+class ScalarPolicy {
+public:
+    struct Table {
+        std::function<Choice(std::uint64_t bits)> choose;
+        std::function<double(LightIndex)> probability;
+    };
+    /// Throws std::out_of_range for an unknown name. Keeps a reference to the lights.
+    ScalarPolicy(std::string_view name, const Lights& lights);
+    const Table& at(const Vec3<double>& x, const Vec3<double>& n);
+    bool draws_every_light() const { return draws_every_light_; }
+
+private:
+    const Lights* lights_;
+    bool draws_every_light_ = false;
+    std::function<Table(const ChoicePoint<double>&, const LightColumns<double>&, Scratch&)> prepare_;
+    bool looks_at_point_ = false;
+    Scratch scratch_;
+    std::vector<double> columns_;
+    Table table_;
+};
+
+}  // namespace mis

@@ -1,0 +1,99 @@
+#pragma once
+
+#include "mis/engine/rows.h"
+#include "mis/sampling/random.h"
+
+namespace mis {
+inline namespace MIS_ISA {
+
+// The BSDF: evaluated for both halves, drawn from in its own.
+
+/// The random numbers of one draw of every row: lobe, u, v.
+template <class T> void bsdf_numbers(const TileJob<T>& job, Batch<T>& batch)
+{
+    for (int row = 0; row < batch.rows; ++row) {
+        const auto i = static_cast<std::size_t>(row);
+        const auto slot = static_cast<std::size_t>(batch.slot[i]);
+        const Words words = random_words(
+            job.seed, {shading_point(job, batch, row).id, batch.sample_number[slot], batch.draw}, Block::bsdf);
+        batch.lobe[i] = unit_number<T>(words[1]);
+        batch.u[i] = unit_number<T>(words[2]);
+        batch.v[i] = unit_number<T>(words[3]);
+    }
+}
+
+/// wi → contribution (f cos θ) and bsdf_pdf; both 0 below the horizon.
+template <class V, class B, class T> void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
+{
+    const B& bsdf = *static_cast<const B*>(job.bsdf);
+    const V zero = number<V>(0);
+    for_each_lane_group<V>(batch.rows, [&](int row) {
+        const Frame<V> frame = frame_around(batch.n.template get<V>(row));
+        Vec3<V> wi = frame.to_local(batch.wi.template get<V>(row));
+        const auto above = wi.z > zero;
+        wi.z = select(above, wi.z, number<V>(1));
+        const BsdfValue<V> value = bsdf.evaluate(batch.wo.template get<V>(row), wi);
+        const Vec3<V> f_cos = value.f * wi.z;
+        batch.contribution.set(
+            row, Vec3<V>(select(above, f_cos.x, zero), select(above, f_cos.y, zero), select(above, f_cos.z, zero)));
+        set_lanes(batch.bsdf_pdf, row, V(select(above, value.pdf, zero)));
+    });
+}
+
+/// lobe, u, v → wi. A draw below the horizon is lost: wi = 0.
+template <class V, class B, class Technique, class T> void draw_direction(const TileJob<T>& job, Batch<T>& batch)
+{
+    const B& bsdf = *static_cast<const B*>(job.bsdf);
+    const bool draws = Technique::draws(bsdf);
+    const V zero = number<V>(0);
+    for_each_lane_group<V>(batch.rows, [&](int row) {
+        const Vec2<V> u{lanes_of<V>(batch.u, row), lanes_of<V>(batch.v, row)};
+        const Vec3<V> local =
+            Technique::sample(bsdf, batch.wo.template get<V>(row), V(lanes_of<V>(batch.lobe, row)), u);
+        const Vec3<V> wi = frame_around(batch.n.template get<V>(row)).to_world(local);
+        const V keep = draws ? select(local.z > zero, number<V>(1), zero) : zero;
+        batch.wi.set(row, Vec3<V>(wi * keep));
+    });
+}
+
+/// bsdf_pdf → pdf of the technique that drew wi.
+template <class V, class Technique, class T> void pdf_of_direction(const TileJob<T>&, Batch<T>& batch)
+{
+    for_each_lane_group<V>(batch.rows, [&](int row) {
+        const Vec3<V> wi = frame_around(batch.n.template get<V>(row)).to_local(batch.wi.template get<V>(row));
+        set_lanes(batch.bsdf_pdf, row, V(Technique::pdf(V(lanes_of<V>(batch.bsdf_pdf, row)), wi)));
+    });
+}
+
+/// contribution (f cos θ), radiance, densities → contribution (share of the estimate).
+template <class V, class Heuristic, class T> void weigh_bsdf(const TileJob<T>& job, Batch<T>& batch)
+{
+    const V light_count(job.light_count), bsdf_count(job.bsdf_count), zero = number<V>(0);
+    for_each_lane_group<V>(batch.rows, [&](int row) {
+        const V pdf = lanes_of<V>(batch.bsdf_pdf, row);
+        const std::array<V, 2> density{V(light_count * lanes_of<V>(batch.light_pdf, row)), V(bsdf_count * pdf)};
+        const V weight = Heuristic::weight(density, 1) / (bsdf_count * pdf);
+        const Vec3<V> share =
+            batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) * weight;
+        const auto counts = pdf > zero;
+        batch.contribution.set(row, Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
+                                            select(counts, share.z, zero)));
+    });
+}
+
+/// The same where the direction technique is alone.
+template <class V, class T> void weigh_alone(const TileJob<T>&, Batch<T>& batch)
+{
+    const V zero = number<V>(0);
+    for_each_lane_group<V>(batch.rows, [&](int row) {
+        const V pdf = lanes_of<V>(batch.bsdf_pdf, row);
+        const Vec3<V> share =
+            batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) / pdf;
+        const auto counts = pdf > zero;
+        batch.contribution.set(row, Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
+                                            select(counts, share.z, zero)));
+    });
+}
+
+}  // namespace MIS_ISA
+}  // namespace mis

@@ -1,0 +1,163 @@
+#include "mis/engine/stages_trace.h"
+
+#include "mis/engine/rows.h"
+#include "mis/math/frame.h"
+#include "mis/sampling/random.h"
+
+#include <cmath>
+
+namespace mis {
+
+template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
+{
+    batch.rows = batch.samples;
+    std::int32_t last_point = -1;
+    Vec3<T> n{0, 0, 1}, wo{0, 0, 1};
+    for (int row = 0; row < batch.rows; ++row) {
+        const auto i = static_cast<std::size_t>(row);
+        batch.slot[i] = row;
+        batch.point[i] = batch.sample_point[i];
+        if (batch.point[i] != last_point) {  // the samples of a point stand together
+            last_point = batch.point[i];
+            const ShadingPoint& point = shading_point(job, batch, row);
+            n = vec_cast<T>(point.n);
+            wo = frame_around(n).to_local(vec_cast<T>(point.wo));
+        }
+        batch.n.put(row, n);
+        batch.wo.put(row, wo);
+    }
+    const int padded = std::min((batch.rows + 15) / 16 * 16, batch_capacity);
+    for (int row = batch.rows; row < padded; ++row) {
+        const auto i = static_cast<std::size_t>(row);
+        batch.n.put(row, {0, 0, 1});
+        batch.wo.put(row, {0, 0, 1});
+        batch.wi.put(row, {0, 0, 1});
+        batch.u[i] = batch.v[i] = batch.lobe[i] = T(0.5);
+    }
+}
+
+namespace {
+
+/// Moves the kept rows to the front, with all that the later stages of either half read.
+template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
+{
+    int kept = 0;
+    for (int row = 0; row < batch.rows; ++row) {
+        if (!keep(row)) continue;
+        if (kept != row) {
+            const auto from = static_cast<std::size_t>(row), to = static_cast<std::size_t>(kept);
+            batch.slot[to] = batch.slot[from];
+            batch.point[to] = batch.point[from];
+            batch.light[to] = batch.light[from];
+            batch.distance[to] = batch.distance[from];
+            batch.n.put(kept, batch.n.at(row));
+            batch.wo.put(kept, batch.wo.at(row));
+            batch.wi.put(kept, batch.wi.at(row));
+        }
+        ++kept;
+    }
+    batch.rows = kept;
+}
+
+/// The technique number of a row's sample: the first word of its BSDF block.
+template <class T> bool draws_light(const TileJob<T>& job, const Batch<T>& batch, int row)
+{
+    const auto slot = static_cast<std::size_t>(batch.slot[static_cast<std::size_t>(row)]);
+    const Words words =
+        random_words(job.seed, {shading_point(job, batch, row).id, batch.sample_number[slot], 0}, Block::bsdf);
+    return words[0] < 0x8000'0000U;
+}
+
+}  // namespace
+
+template <class T> void keep_light_rows(const TileJob<T>& job, Batch<T>& batch)
+{
+    keep_rows(batch, [&](int row) { return draws_light(job, batch, row); });
+}
+
+template <class T> void keep_bsdf_rows(const TileJob<T>& job, Batch<T>& batch)
+{
+    keep_rows(batch, [&](int row) { return !draws_light(job, batch, row); });
+}
+
+template <class T> void meet_lights(const TileJob<T>& job, Batch<T>& batch)
+{
+    keep_rows(batch, [&](int row) {
+        if (is_zero(batch.wi, row)) return false;
+        const auto i = static_cast<std::size_t>(row);
+        const LightHit hit = job.hierarchy->nearest(shading_point(job, batch, row).x, vec_cast<double>(batch.wi.at(row)));
+        batch.light[i] = hit.light;
+        batch.distance[i] = static_cast<T>(hit.distance);
+        return hit.light >= 0;
+    });
+}
+
+template <class T> void fetch_radiance(const TileJob<T>& job, Batch<T>& batch)
+{
+    for (int row = 0; row < batch.rows; ++row) {
+        const auto j = static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)]);
+        batch.radiance.put(row, vec_cast<T>(radiance((*job.lights)[j])));
+    }
+}
+
+template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
+{
+    for (int row = 0; row < batch.rows; ++row) {
+        if (is_zero(batch.contribution, row)) continue;
+        const LightIndex j = batch.light[static_cast<std::size_t>(row)];
+        const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
+        const Vec3<double> x = shading_point(job, batch, row).x;
+        // Axis in double plus the offset: the direction without its rounding to T.
+        const Vec3<double> to_center = light.center - x;
+        const Vec3<double> wi = normalized(to_center) + vec_cast<double>(batch.offset.at(row));
+        const double own = hit_distance(to_center, light.radius, wi);
+        const LightHit hit{j, std::isfinite(own) ? own : dot(to_center, wi)};
+        if (job.hierarchy->hides(x, wi, hit)) batch.contribution.put(row, Vec3<T>(T(0)));
+    }
+}
+
+template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
+{
+    std::array<ShadowRay, batch_capacity> rays;      // NOLINT: filled as far as it is read
+    std::array<std::int32_t, batch_capacity> row_of;  // NOLINT
+    std::array<std::uint8_t, batch_capacity> hidden;  // NOLINT
+    std::size_t count = 0;
+    for (int row = 0; row < batch.rows; ++row) {
+        if (is_zero(batch.contribution, row)) continue;
+        row_of[count] = row;
+        rays[count++] = {shading_point(job, batch, row).ray_origin, vec_cast<float>(batch.wi.at(row)),
+                         static_cast<float>(batch.distance[static_cast<std::size_t>(row)])};
+    }
+    job.surfaces->occluded(std::span(rays).first(count), std::span(hidden).first(count));
+    batch.shadow_rays += count;
+    for (std::size_t i = 0; i < count; ++i)
+        if (hidden[i] != 0) batch.contribution.put(row_of[i], Vec3<T>(T(0)));
+}
+
+template <class T> void add_contributions(const TileJob<T>&, Batch<T>& batch)
+{
+    for (int row = 0; row < batch.rows; ++row) {
+        const Vec3<T> contribution = batch.contribution.at(row);
+        if (!std::isfinite(contribution.x + contribution.y + contribution.z)) {
+            ++batch.invalid;
+            continue;
+        }
+        const int slot = batch.slot[static_cast<std::size_t>(row)];
+        batch.value.put(slot, batch.value.at(slot) + contribution);
+    }
+}
+
+#define MIS_INSTANTIATE(T)                                               \
+    template void start_rows(const TileJob<T>&, Batch<T>&);              \
+    template void keep_light_rows(const TileJob<T>&, Batch<T>&);         \
+    template void keep_bsdf_rows(const TileJob<T>&, Batch<T>&);          \
+    template void meet_lights(const TileJob<T>&, Batch<T>&);             \
+    template void fetch_radiance(const TileJob<T>&, Batch<T>&);          \
+    template void hide_by_lights(const TileJob<T>&, Batch<T>&);          \
+    template void hide_by_surfaces(const TileJob<T>&, Batch<T>&);        \
+    template void add_contributions(const TileJob<T>&, Batch<T>&);
+MIS_INSTANTIATE(float)
+MIS_INSTANTIATE(double)
+#undef MIS_INSTANTIATE
+
+}  // namespace mis

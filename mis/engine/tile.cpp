@@ -1,0 +1,177 @@
+#include "mis/engine/tile.h"
+
+#include "mis/engine/light_columns.h"
+#include "mis/engine/stopwatch.h"
+
+#include <algorithm>
+
+namespace mis {
+
+void TileTotals::add(const TileTotals& other)
+{
+    for (std::size_t k = 0; k < stage_seconds.size(); ++k) stage_seconds[k] += other.stage_seconds[k];
+    seconds += other.seconds;
+    samples += other.samples;
+    shadow_rays += other.shadow_rays;
+    invalid += other.invalid;
+}
+
+namespace {
+
+/// Tables of a batch's points may take this much, so that they stay in the second-level cache; one point always fits.
+constexpr std::size_t scratch_bytes = std::size_t{1} << 20;
+
+}  // namespace
+
+/// One run over a tile: fills batches with the samples of its points, in order, and takes their values in.
+template <class T> struct Workspace<T>::Run {
+    const TileJob<T>& job;
+    const Pipeline<T>& pipeline;
+    const SampleRange& range;
+    std::span<PointResult> results;
+    std::span<const double> weights;
+    std::span<ChunkTotals> totals;
+    Batch<T>& batch;
+    Scratch& scratch;
+    Column<T>& luminances;
+    std::array<std::uint64_t, stage_names.size()> stage_ticks{};
+    Moments chunk;  ///< of the point and chunk at hand
+
+    void all()
+    {
+        for (std::size_t p = 0; p < job.points.size(); ++p) {
+            if (scratch.left() < pipeline.table_bytes) flush();
+            if (batch.samples == 0) clear_points();
+            add_point(p);
+            for (int s = 0; s < range.samples(); ++s) {
+                if (batch.samples == batch_capacity) {
+                    flush();
+                    keep_last_point();
+                }
+                const auto slot = static_cast<std::size_t>(batch.samples++);
+                batch.sample_point[slot] = static_cast<std::int32_t>(batch.points - 1);
+                batch.sample_number[slot] = range.first + static_cast<std::uint64_t>(s);
+            }
+            if (batch.samples == batch_capacity) flush();
+        }
+        flush();
+    }
+
+    void clear_points()
+    {
+        batch.points = 0;
+        scratch.clear();
+    }
+
+    void add_point(std::size_t p)
+    {
+        const std::size_t slot = batch.points++;
+        batch.tile_point[slot] = static_cast<std::uint32_t>(p);
+        if (pipeline.prepare == nullptr) return;
+        const std::uint64_t start = ticks();
+        pipeline.prepare(job, batch, slot, scratch);
+        stage_ticks[static_cast<std::size_t>(StageKind::prepare)] += ticks() - start;
+    }
+
+    /// The point whose samples go on in the next batch: its table stays where it is.
+    void keep_last_point()
+    {
+        batch.tables[0] = batch.tables[batch.points - 1];
+        batch.tile_point[0] = batch.tile_point[batch.points - 1];
+        batch.points = 1;
+    }
+
+    void flush()
+    {
+        if (batch.samples == 0) {
+            clear_points();
+            return;
+        }
+        std::fill_n(batch.value.x.begin(), batch.samples, T(0));
+        std::fill_n(batch.value.y.begin(), batch.samples, T(0));
+        std::fill_n(batch.value.z.begin(), batch.samples, T(0));
+        const std::size_t lights = pipeline.draws_every_light ? job.lights->size() : 1;
+        const std::uint32_t light_draws = static_cast<std::uint32_t>(pipeline.light_draws * lights);
+        for (std::uint32_t draw = 0; draw < light_draws; ++draw) run_half(pipeline.light, draw);
+        for (int draw = 0; draw < pipeline.bsdf_draws; ++draw) run_half(pipeline.bsdf, static_cast<std::uint32_t>(draw));
+        take_in();
+        batch.samples = 0;
+    }
+
+    void run_half(const std::vector<NamedStage<T>>& stages, std::uint32_t draw)
+    {
+        batch.draw = draw;
+        std::uint64_t before = ticks();
+        for (const NamedStage<T>& stage : stages) {
+            stage.run(job, batch);
+            const std::uint64_t now = ticks();
+            stage_ticks[static_cast<std::size_t>(stage.kind)] += now - before;
+            before = now;
+        }
+    }
+
+    /// The values of the batch → moments, one run of samples of a point and chunk after the other.
+    void take_in()
+    {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.samples); ++i)
+            luminances[i] = luminance(batch.value.at(static_cast<int>(i)));
+        for (std::size_t first = 0; first < static_cast<std::size_t>(batch.samples);) {
+            const std::uint64_t number = batch.sample_number[first] - range.first;
+            const auto left_of_chunk = static_cast<std::size_t>(range.chunk) - number % static_cast<std::size_t>(range.chunk);
+            const std::size_t count = std::min(left_of_chunk, static_cast<std::size_t>(batch.samples) - first);
+            PointResult& result = results[batch.tile_point[static_cast<std::size_t>(batch.sample_point[first])]];
+            chunk.merge(Moments::of(std::span<const T>(&luminances[first], count)));
+            for (std::size_t i = first; i < first + count; ++i)
+                result.radiance_sum += vec_cast<double>(batch.value.at(static_cast<int>(i)));
+            if (count == left_of_chunk) end_chunk(result, number / static_cast<std::size_t>(range.chunk));
+            first += count;
+        }
+    }
+
+    void end_chunk(PointResult& result, std::size_t number)
+    {
+        const auto point = static_cast<std::size_t>(&result - results.data());
+        result.luminance.merge(chunk);
+        if (!totals.empty()) {
+            const double variance = chunk.count > 1 ? chunk.variance() : 0;
+            totals[number].mean += chunk.mean;
+            totals[number].variance += variance;
+            if (!weights.empty()) totals[number].relative_variance += variance * weights[point];
+        }
+        chunk = {};
+    }
+};
+
+template <class T>
+TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const SampleRange& range,
+                             std::span<PointResult> results, std::span<const double> weights,
+                             std::span<ChunkTotals> totals)
+{
+    const double start = thread_seconds();
+    const std::uint64_t start_ticks = ticks();
+    if (!scratch_ || scratch_->size() < pipeline.table_bytes)
+        scratch_ = std::make_unique<Scratch>(std::max(scratch_bytes, pipeline.table_bytes));
+    if (pipeline.looks_at_point) job.columns = fill_light_columns(*job.lights, job.origin, columns_);
+    batch_->samples = 0;
+    batch_->points = 0;
+    batch_->invalid = batch_->shadow_rays = 0;
+    scratch_->clear();
+    Run run{job, pipeline, range, results, weights, totals, *batch_, *scratch_, luminance_};
+    run.stage_ticks[static_cast<std::size_t>(StageKind::prepare)] = pipeline.looks_at_point ? ticks() - start_ticks : 0;
+    run.all();
+
+    TileTotals result;
+    const double all_ticks = static_cast<double>(std::max<std::uint64_t>(ticks() - start_ticks, 1));
+    result.seconds = thread_seconds() - start;
+    for (std::size_t k = 0; k < run.stage_ticks.size(); ++k)
+        result.stage_seconds[k] = static_cast<double>(run.stage_ticks[k]) / all_ticks * result.seconds;
+    result.samples = job.points.size() * static_cast<std::uint64_t>(range.samples());
+    result.shadow_rays = batch_->shadow_rays;
+    result.invalid = batch_->invalid;
+    return result;
+}
+
+template class Workspace<float>;
+template class Workspace<double>;
+
+}  // namespace mis

@@ -1,0 +1,101 @@
+#include "mis/io/explain_report.h"
+
+#include "mis/io/atomic_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace mis {
+
+namespace {
+
+std::string many(std::size_t n, std::string_view one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
+
+/// Words in lines of 80 columns, behind a label.
+std::string paragraph(const std::string& label, const std::string& text)
+{
+    constexpr std::size_t width = 80, indent = 18;
+    std::string lines = fmt::format("{:<{}}", label, indent);
+    std::size_t column = indent;
+    std::size_t start = 0;
+    while (start < text.size()) {
+        const std::size_t end = std::min(text.find(' ', start), text.size());
+        const std::string word = text.substr(start, end - start);
+        if (column > indent && column + 1 + word.size() > width) {
+            lines += "\n" + std::string(indent, ' ');
+            column = indent;
+        }
+        if (column > indent) lines += " ", ++column;
+        lines += word;
+        column += word.size();
+        start = end + 1;
+    }
+    return lines + "\n";
+}
+
+}  // namespace
+
+std::string explanation_text(const Explanation& found)
+{
+    std::string text = paragraph("scene", found.name.empty() ? found.file : found.name + " (" + found.file + ")");
+    std::string lights = many(found.lights, "light");
+    if (found.black_lights > 0) lights += fmt::format(", {} of them black", found.black_lights);
+    lights += fmt::format("; radius {:.4g} to {:.4g}, power {:.4g} to {:.4g} W (luminance)", found.radius.low,
+                          found.radius.high, found.power.low, found.power.high);
+    text += paragraph("lights", lights);
+    text += paragraph("surfaces", many(found.quads, "quad") + ", " + many(found.spheres, "sphere") + ", " +
+                                      many(found.meshes, "mesh") + (found.meshes > 1 ? "es" : "") + " of " +
+                                      many(found.triangles, "triangle"));
+    if (found.width > 0)
+        text += paragraph("picture", fmt::format("{} x {} pixels, of which {} show no surface", found.width, found.height,
+                                                 found.background_pixels));
+    if (found.probes > 0) text += paragraph("probes", std::to_string(found.probes));
+    text += paragraph("shading points",
+                      fmt::format("{} in {}{}", found.shading_points, many(found.tiles, "tile"),
+                                  found.dark_points > 0
+                                      ? fmt::format("; {} see no light: inside one, or seen from below", found.dark_points)
+                                      : ""));
+    for (const MaterialUse& material : found.materials)
+        text += paragraph("material", fmt::format("{} ({}), {}", material.name, material.type,
+                                                  many(material.shading_points, "point")));
+    text += paragraph("memory", fmt::format("lights {:.3g} MB, hierarchy over them {:.3g} MB",
+                                            static_cast<double>(found.light_bytes) / 1e6,
+                                            static_cast<double>(found.hierarchy_bytes) / 1e6));
+    text += "\n";
+    for (const EffectPlan& effect : found.effects)
+        text += paragraph(effect.name + (effect.on ? "  on" : "  off"), effect.why);
+    return text;
+}
+
+void write_explanation_json(const Explanation& found, const RunHeader& run, const std::string& path)
+{
+    using Json = nlohmann::ordered_json;
+    Json effects = Json::object(), materials = Json::array();
+    for (const EffectPlan& e : found.effects)
+        effects[e.name] = {{"on", e.on}, {"share", e.on ? 1.0 : 0.0}, {"why", e.why}};
+    for (const MaterialUse& m : found.materials)
+        materials.push_back({{"name", m.name}, {"type", m.type}, {"shading_points", m.shading_points}});
+    const Json scene{{"file", found.file},
+                     {"name", found.name},
+                     {"lights", found.lights},
+                     {"black_lights", found.black_lights},
+                     {"light_radius", {{"low", found.radius.low}, {"high", found.radius.high}}},
+                     {"light_power", {{"low", found.power.low}, {"high", found.power.high}}},
+                     {"quads", found.quads},
+                     {"spheres", found.spheres},
+                     {"meshes", found.meshes},
+                     {"triangles", found.triangles},
+                     {"resolution", {found.width, found.height}},
+                     {"shading_points", found.shading_points},
+                     {"dark_points", found.dark_points},
+                     {"background_pixels", found.background_pixels},
+                     {"tiles", found.tiles},
+                     {"probes", found.probes},
+                     {"materials", materials},
+                     {"effects", effects}};
+    const Json report{{"format", "mis-explain/1"}, {"version", MIS_VERSION}, {"command", run.command},
+                      {"seed", run.seed},          {"threads", run.threads}, {"scenes", Json::array({scene})}};
+    write_text(path, report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace mis

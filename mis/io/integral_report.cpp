@@ -1,0 +1,105 @@
+#include "mis/io/integral_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace mis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json figure(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+double share_below_horizon(const HemisphereRun& run)
+{
+    return static_cast<double>(run.below_horizon) / static_cast<double>(run.values.count);
+}
+
+Json exponent(const HemisphereEstimator& estimator)
+{
+    return estimator.density == HemisphereDensity::blinn ? Json(estimator.exponent) : Json(nullptr);
+}
+
+Json exactly(const HemisphereEstimator& estimator)
+{
+    const ExactHemisphere e = exact(estimator);
+    return {{"mean", figure(e.mean)},
+            {"variance", figure(e.variance)},
+            {"log10_variance", figure(e.log10_variance)},
+            {"largest_value", figure(e.largest_value)},
+            {"log10_largest_value", figure(e.log10_largest_value)},
+            {"below_horizon", figure(e.below_horizon)}};
+}
+
+Json measured(const HemisphereRun& run, double integral)
+{
+    return {{"samples", run.values.count},
+            {"mean", figure(run.values.mean)},
+            {"mean_se", figure(run.values.mean_se())},
+            {"error", figure(run.values.mean - integral)},
+            {"variance", figure(run.values.variance())},
+            {"variance_se", figure(run.values.variance_se())},
+            {"below_horizon", share_below_horizon(run)}};
+}
+
+Json density(const IntegralReport::Entry& entry)
+{
+    const HemisphereDensityText& text = text_of(entry.estimator.density);
+    Json json{{"name", text.name},
+              {"draws", text.draws},
+              {"pdf", text.pdf},
+              {"exponent", exponent(entry.estimator)},
+              {"finite_variance", std::isfinite(exact(entry.estimator).log10_largest_value)},
+              {"exact", exactly(entry.estimator)}};
+    const std::uint64_t drawn = entry.running.empty() ? 0 : entry.running.back().values.count;
+    const Unseen hidden = unseen(entry.estimator, drawn);
+    json["unseen"] = {{"of_integral", hidden.of_integral},
+                      {"of_second_moment", hidden.of_second_moment}};
+    json["running"] = Json::array();
+    for (const HemisphereRun& run : entry.running)
+        json["running"].push_back(measured(run, hemisphere_integral));
+    return json;
+}
+
+}  // namespace
+
+std::string integral_json(const IntegralReport& report)
+{
+    Json json{{"format", "mis-integrate/1"},    {"version", report.version},
+              {"command", report.command},      {"seed", report.seed},
+              {"partial", report.partial},      {"samples", report.samples},
+              {"integral", hemisphere_integral}};
+    json["densities"] = Json::array();
+    for (const IntegralReport::Entry& entry : report.densities)
+        json["densities"].push_back(density(entry));
+    // A command line may hold bytes that are not UTF-8; JSON cannot.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string integral_csv(const IntegralReport& report)
+{
+    std::string text =
+        "density,exponent,samples,mean,mean_se,error,variance,variance_se,below_horizon,"
+        "exact_mean,exact_variance,exact_log10_variance,exact_below_horizon\r\n";
+    for (const IntegralReport::Entry& entry : report.densities) {
+        const HemisphereEstimator& estimator = entry.estimator;
+        const ExactHemisphere e = exact(estimator);
+        const bool has_exponent = estimator.density == HemisphereDensity::blinn;
+        for (const HemisphereRun& run : entry.running) {
+            const Moments& values = run.values;
+            text += fmt::format(
+                "{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", text_of(estimator.density).name,
+                has_exponent ? field(estimator.exponent) : "", values.count, field(values.mean),
+                field(values.mean_se()), field(values.mean - hemisphere_integral),
+                field(values.variance()), field(values.variance_se()),
+                field(share_below_horizon(run)), field(e.mean), field(e.variance),
+                field(e.log10_variance), field(e.below_horizon));
+        }
+    }
+    return text;
+}
+
+}  // namespace mis

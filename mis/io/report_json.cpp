@@ -1,0 +1,184 @@
+#include "mis/io/report_json.h"
+
+#include "mis/compare/sentences.h"
+#include "mis/io/atomic_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace mis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json figure(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json place(int rank) { return rank > 0 ? Json(rank) : Json(nullptr); }
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json interval(const Interval& x)
+{
+    return {{"value", figure(x.value)}, {"low", figure(x.low)}, {"high", figure(x.high)}};
+}
+
+Json probe(const PointFigures& p)
+{
+    return {{"mean", figure(p.mean)},
+            {"mean_se", figure(p.mean_se)},
+            {"variance", interval(p.variance)}};
+}
+
+/// What it is, as data; "counts" are draws per sample, light and BSDF.
+Json identity(const Strategy& s)
+{
+    return {{"name", name_of(s)},
+            {"policy", text_or_null(s.policy)},
+            {"heuristic", text_or_null(s.heuristic)},
+            {"technique", s.technique},
+            {"model", s.model == Model::multi ? "multi" : "one-sample"},
+            {"counts", s.chooses_light()
+                           ? s.heuristic == "light" ? Json{s.counts[0], 0} : Json(s.counts)
+                           : Json{0, 1}}};
+}
+
+Json strategy(const StrategyReport& s)
+{
+    Json json = identity(s.strategy);
+    json["status"] = name_of(s.status);
+    json["reason"] = text_or_null(s.reason);
+    json["exact"] = s.exact;
+    json["rank"] = place(s.rank);
+    json["rank_low"] = place(s.rank_low);
+    json["rank_high"] = place(s.rank_high);
+    json["tied_with"] = s.tied_with;
+    json["rank_by_efficiency"] = place(s.rank_by_efficiency);
+    json["rank_by_efficiency_low"] = place(s.rank_by_efficiency_low);
+    json["rank_by_efficiency_high"] = place(s.rank_by_efficiency_high);
+    json["samples"] = s.samples;
+    json["mean"] = figure(s.mean);
+    json["mean_se"] = figure(s.mean_se);
+    json["bias_p_value"] = figure(s.bias_p_value);
+    json["variance"] = interval(s.variance);
+    json["relative_variance"] = interval(s.relative_variance);
+    json["rare_share"] = figure(s.rare_share);
+    json["effective_samples"] = figure(s.effective_samples);
+    json["seconds_per_point"] = interval(s.seconds_per_point);
+    json["seconds_per_sample"] = interval(s.seconds_per_sample);
+    json["stage_seconds"] = Json::object();
+    for (const auto& [stage, seconds] : s.stage_seconds)
+        json["stage_seconds"][stage] = figure(seconds);
+    json["rays_per_sample"] = figure(s.rays_per_sample);
+    json["efficiency"] = interval(s.efficiency);
+    json["seconds_to_1_percent"] = figure(s.seconds_to_1_percent.value);
+    json["seconds_to_1_percent_interval"] = interval(s.seconds_to_1_percent);
+    json["estimated_seconds"] =
+        s.status == Status::not_run ? figure(s.estimated_seconds) : Json(nullptr);
+    json["invalid_samples"] = s.invalid_samples;
+    json["probes"] = Json::array();
+    for (const PointFigures& p : s.probes) json["probes"].push_back(probe(p));
+    return json;
+}
+
+Json pair(const PairReport& p, const SceneReport& scene)
+{
+    return {{"a", name_of(scene.strategies[p.a].strategy)},
+            {"b", name_of(scene.strategies[p.b].strategy)},
+            {"variance_ratio", interval(p.ratio)},
+            {"verdict", name_of(p.verdict)},
+            {"more_replicates", figure(p.more_replicates)},
+            {"efficiency_ratio", interval(p.efficiency_ratio)},
+            {"efficiency_verdict", name_of(p.efficiency_verdict)},
+            {"time_ratio", interval(p.time_ratio)},
+            {"time_verdict", name_of(p.time_verdict)}};
+}
+
+Json effect(const EffectReport& e)
+{
+    return {{"on", e.on},
+            {"share", figure(e.share)},
+            {"why", e.why},
+            {"saved_rays_per_sample", figure(e.saved_rays_per_sample)},
+            {"saved_seconds_per_sample", figure(e.saved_seconds_per_sample)}};
+}
+
+Json scene(const SceneReport& s, const Report& report)
+{
+    Json json{{"file", s.file},
+              {"name", s.name},
+              {"lights", s.lights},
+              {"surfaces", s.surfaces},
+              {"triangles", s.triangles},
+              {"resolution", s.width > 0 ? Json{s.width, s.height} : Json(nullptr)},
+              {"shading_points", s.shading_points},
+              {"background_pixels", s.background_pixels},
+              {"replicates", s.replicates},
+              {"epsilon", figure(s.epsilon)},
+              {"settled", s.settled},
+              {"partial", s.partial},
+              {"seconds", figure(s.seconds)}};
+    json["effects"] = Json::object();
+    for (const EffectReport& e : s.effects) json["effects"][e.name] = effect(e);
+    json["strategies"] = Json::array();
+    for (const StrategyReport& each : s.strategies) json["strategies"].push_back(strategy(each));
+    json["pairs"] = Json::array();
+    for (const PairReport& p : s.pairs) json["pairs"].push_back(pair(p, s));
+    json["sentences"] = sentences_of(s, report.threads, report.margin);
+    return json;
+}
+
+Json overall(const OverallReport& o)
+{
+    return {{"name", o.name},
+            {"rank", place(o.rank)},
+            {"rank_by_efficiency", place(o.rank_by_efficiency)},
+            {"variance_ratio", interval(o.variance_ratio)},
+            {"cost_ratio", interval(o.cost_ratio)},
+            {"time_ratio", interval(o.time_ratio)},
+            {"beaten_by_exact", o.beaten_by_exact}};
+}
+
+}  // namespace
+
+const char* name_of(Status status)
+{
+    switch (status) {
+        case Status::not_run: return "not_run";
+        case Status::not_resolved: return "not_resolved";
+        case Status::biased: return "biased";
+        case Status::ranked: break;
+    }
+    return "ranked";
+}
+
+const char* name_of(Verdict verdict)
+{
+    return verdict == Verdict::apart ? "apart" : verdict == Verdict::tied ? "tied" : "undecided";
+}
+
+std::string report_json(const Report& report)
+{
+    Json json{{"format", "mis-report/1"},
+              {"version", report.version},
+              {"command", report.command},
+              {"seed", report.seed},
+              {"threads", report.threads},
+              {"machine", report.machine},
+              {"instruction_set", report.instruction_set},
+              {"partial", report.partial},
+              {"margin", figure(report.margin)},
+              {"at", figure(report.at)}};
+    json["scenes"] = Json::array();
+    for (const SceneReport& s : report.scenes) json["scenes"].push_back(scene(s, report));
+    json["overall"] = Json::array();
+    for (const OverallReport& o : report.overall) json["overall"].push_back(overall(o));
+    json["sentences"] = overall_sentences_of(report);
+    // A command line or a file name may hold bytes that are not UTF-8; JSON cannot.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_report_json(const Report& report, const std::string& path)
+{
+    write_text(path, report_json(report));
+}
+
+}  // namespace mis

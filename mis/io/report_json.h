@@ -1,0 +1,22 @@
+#pragma once
+
+#include "mis/compare/report.h"
+
+#include <string>
+
+namespace mis {
+
+/// The report as `mis-report/1` (docs/report-format.md). Numbers keep all their digits; what is not
+/// known or not finite is null. Ends with a line feed.
+std::string report_json(const Report& report);
+
+/// Writes it to the file `path`, whole or not at all; "-" is standard output. Throws WriteError.
+void write_report_json(const Report& report, const std::string& path);
+
+/// A state as it stands in files: "ranked", "not_resolved", "biased", "not_run".
+const char* name_of(Status status);
+
+/// "apart", "tied", "undecided".
+const char* name_of(Verdict verdict);
+
+}  // namespace mis

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "mis/io/json_node.h"
+#include "mis/scene/light.h"
+
+namespace mis {
+
+/// Appends what one entry of a scene's "lights" stands for: one light, those of a table, or random ones.
+/// Throws SceneError.
+void append_lights(const JsonNode& entry, Lights& to);
+
+}  // namespace mis

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace mis {
+
+/// Count, mean and central sums to the fourth of many numbers: M_p = Σ (x − mean)^p. Double,
+/// whatever was added. Two sets of moments merge exactly (to rounding), in any order and grouping;
+/// the same order gives the same bits. Source: Chan, Golub and LeVeque 1979 (mean, M2); Pébay 2008,
+/// SAND2008-6212 (M3, M4, pairwise).
+struct Moments {
+    std::uint64_t count = 0;
+    double mean = 0, m2 = 0, m3 = 0, m4 = 0;
+
+    /// Of all of `samples`, in two passes: the accurate and, for more than a few, the fast way.
+    template <std::floating_point T> static Moments of(std::span<const T> samples);
+
+    /// One more number (Pébay 2008, the case n_B = 1).
+    void add(double x);
+
+    /// All that `other` holds, too.
+    void merge(const Moments& other);
+
+    /// Unbiased, n − 1; NaN for fewer than two numbers.
+    double variance() const { return count < 2 ? nan() : m2 / (number() - 1); }
+
+    /// n·M4/M2²: 3 for normal numbers, 1/p for a rare event of probability p; NaN where all are
+    /// equal.
+    double kurtosis() const { return m2 > 0 ? number() * m4 / (m2 * m2) : nan(); }
+
+    /// How many of the numbers carry the variance: (Σd²)²/Σd⁴, in [1, n]; 0 where all are equal.
+    double effective_count() const { return m4 > 0 ? m2 * m2 / m4 : 0; }
+
+    /// Standard error of the mean; NaN for fewer than two numbers.
+    double mean_se() const { return std::sqrt(variance() / number()); }
+
+    /// Standard error of variance(): Var(s²) = (μ4 − σ⁴(n−3)/(n−1))/n, with M4/n and s² put in for
+    /// μ4 and σ⁴; NaN for fewer than two numbers, and never below 0.
+    double variance_se() const;
+
+private:
+    static constexpr double nan() { return std::numeric_limits<double>::quiet_NaN(); }
+    double number() const { return static_cast<double>(count); }
+};
+static_assert(sizeof(Moments) == 40);
+
+template <std::floating_point T> Moments Moments::of(std::span<const T> samples)
+{
+    Moments result;
+    result.count = samples.size();
+    if (samples.empty()) return result;
+    const double n = result.number();
+    const double origin =
+        static_cast<double>(samples[0]);  // so that a huge offset costs no digits of the mean
+    double sum = 0;
+    for (const T x : samples) sum += static_cast<double>(x) - origin;
+    const double shift = sum / n;
+    double rest = 0;
+    for (const T x : samples) {
+        const double d = (static_cast<double>(x) - origin) - shift, d2 = d * d;
+        rest += d;
+        result.m2 += d2;
+        result.m3 += d2 * d;
+        result.m4 += d2 * d2;
+    }
+    // What the mean was wrong by, to rounding (the corrected two passes of Chan, Golub and LeVeque
+    // 1983).
+    result.m2 = std::fmax(0, result.m2 - rest * rest / n);
+    result.mean = origin + shift;
+    return result;
+}
+
+inline void Moments::add(double x)
+{
+    const double before = number();
+    ++count;
+    const double n = number(), delta = x - mean, d = delta / n;
+    const double step = delta * d * before;  // what M2 grows by
+    m4 += step * d * d * (n * n - 3 * n + 3) + 6 * d * d * m2 - 4 * d * m3;
+    m3 += step * d * (n - 2) - 3 * d * m2;
+    m2 += step;
+    mean += d;
+}
+
+inline void Moments::merge(const Moments& other)
+{
+    if (other.count == 0) return;
+    if (count == 0) {
+        *this = other;
+        return;
+    }
+    const double na = number(), nb = other.number(), n = na + nb;
+    const double delta = other.mean - mean, d = delta / n, d2 = d * d;
+    const double step = delta * d * na * nb;
+    m4 += other.m4 + step * d2 * (na * na - na * nb + nb * nb) +
+          6 * d2 * (na * na * other.m2 + nb * nb * m2) + 4 * d * (na * other.m3 - nb * m3);
+    m3 += other.m3 + step * d * (na - nb) + 3 * d * (na * other.m2 - nb * m2);
+    m2 += other.m2 + step;
+    mean += d * nb;
+    count += other.count;
+}
+
+inline double Moments::variance_se() const
+{
+    const double n = number(), s2 = variance();
+    return count < 2 ? nan() : std::sqrt(std::fmax(0, (m4 / n - s2 * s2 * (n - 3) / (n - 1)) / n));
+}
+
+}  // namespace mis

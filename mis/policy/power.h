@@ -1,0 +1,43 @@
+#pragma once
+
+#include "mis/policy/light_choice.h"
+
+#include <memory>
+
+namespace mis {
+
+/// Draws lights in proportion to the power they emit, wherever the point is (Shirley, Wang and Zimmerman 1996, §4).
+class PowerPolicy {
+public:
+    static constexpr std::string_view name = "power";
+    static constexpr std::string_view summary = "in proportion to emitted power, blind to distance";
+    static constexpr bool draws_every_light = false, looks_at_point = false;
+    static constexpr std::size_t table_bytes(std::size_t) { return 0; }
+
+    explicit PowerPolicy(const Lights& lights) : by_power_(std::make_shared<AliasTable>(relative_powers(lights))) {}
+
+    /// A view of the one table.
+    struct Table {
+        const AliasTable* by_power;
+        Choice choose(std::uint64_t bits) const { return by_power->choose(bits); }
+        double probability(LightIndex light) const { return by_power->probability(light); }
+    };
+    template <class T> Table prepare(const ChoicePoint<Scalar<T>>&, const LightColumns<Scalar<T>>&, Scratch&) const
+    {
+        return {by_power_.get()};
+    }
+
+private:
+    /// Y(L)·r²; the common factor 4π² is left out.
+    static std::vector<double> relative_powers(const Lights& lights)
+    {
+        std::vector<double> powers;
+        powers.reserve(lights.size());
+        for (const Light& light : lights) powers.push_back(luminance_radius(light) * light.radius);
+        return powers;
+    }
+    std::shared_ptr<const AliasTable> by_power_;
+};
+static_assert(LightChoice<PowerPolicy, float>);
+
+}  // namespace mis

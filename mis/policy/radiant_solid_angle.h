@@ -1,0 +1,30 @@
+#pragma once
+
+#include "mis/policy/light_choice.h"
+
+namespace mis {
+
+/// Draws lights in proportion to radiance × solid angle of their cap.
+class RadiantSolidAnglePolicy {
+public:
+    static constexpr std::string_view name = "radiant-solid-angle";
+    static constexpr std::string_view summary = "in proportion to radiance x solid angle";
+    static constexpr bool draws_every_light = false, looks_at_point = true;
+    static constexpr std::size_t table_bytes(std::size_t lights) { return weight_table_bytes(lights); }
+
+    explicit RadiantSolidAnglePolicy(const Lights&) {}
+
+    template <class T>
+    RunningSum prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>& lights,
+                       Scratch& scratch) const
+    {
+        // Y(L)·Ω ∝ (Y(L)·r/d) · Ω/sin θ_max.
+        const auto weight = [](const SeenLight<T>& light, const Vec3<T>&) {
+            return light.luminance_radius / light.distance * light.solid_angle_over_sin();
+        };
+        return prepare_by_weight<T>(weight, point, lights, scratch);
+    }
+};
+static_assert(LightChoice<RadiantSolidAnglePolicy, float>);
+
+}  // namespace mis

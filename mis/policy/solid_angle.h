@@ -1,0 +1,29 @@
+#pragma once
+
+#include "mis/policy/light_choice.h"
+
+namespace mis {
+
+/// Draws lights in proportion to the solid angle of their cap, whatever they emit.
+class SolidAnglePolicy {
+public:
+    static constexpr std::string_view name = "solid-angle";
+    static constexpr std::string_view summary = "in proportion to the solid angle, blind to radiance";
+    static constexpr bool draws_every_light = false, looks_at_point = true;
+    static constexpr std::size_t table_bytes(std::size_t lights) { return weight_table_bytes(lights); }
+
+    explicit SolidAnglePolicy(const Lights&) {}
+
+    template <class T>
+    RunningSum prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>& lights,
+                       Scratch& scratch) const
+    {
+        const auto weight = [](const SeenLight<T>& light, const Vec3<T>&) {
+            return light.size / light.distance * light.solid_angle_over_sin();
+        };
+        return prepare_by_weight<T>(weight, point, lights, scratch);
+    }
+};
+static_assert(LightChoice<SolidAnglePolicy, float>);
+
+}  // namespace mis

@@ -1,0 +1,107 @@
+#include "mis/predict/choices.h"
+
+#include "mis/policy/registry.h"
+#include "mis/technique/registry.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace mis {
+
+namespace {
+
+/// The lights' columns about the probe, as LightColumns wants them: padded, in double.
+class ProbeColumns {
+public:
+    ProbeColumns(const Lights& lights, const Vec3<double>& origin) : count_(lights.size())
+    {
+        const std::size_t padded = (count_ + 15) / 16 * 16;
+        for (auto& column : columns_) column.assign(padded, 1);
+        for (std::size_t j = 0; j < count_; ++j) {
+            const Vec3<double> center = lights[j].center - origin;
+            columns_[0][j] = center.x, columns_[1][j] = center.y, columns_[2][j] = center.z;
+            columns_[3][j] = lights[j].radius, columns_[4][j] = luminance_radius(lights[j]);
+            largest_ = std::max(largest_, lights[j].radius);
+        }
+    }
+    LightColumns<double> view() const
+    {
+        LightColumns<double> view;
+        view.count = count_;
+        view.x = columns_[0], view.y = columns_[1], view.z = columns_[2];
+        view.radius = columns_[3], view.luminance_radius = columns_[4];
+        view.inverse_largest_radius = 1 / largest_;
+        return view;
+    }
+
+private:
+    std::size_t count_;
+    std::array<std::vector<double>, 5> columns_;
+    double largest_ = 0;
+};
+
+template <class P> PolicyView view_of(const Scene& scene, const Probe& probe)
+{
+    const std::size_t count = scene.lights.size();
+    PolicyView view{.probability = std::vector<double>(count, 0), .draws_every_light = P::draws_every_light};
+    if (count == 0) return view;
+    const P policy(scene.lights);
+    const ProbeColumns columns(scene.lights, probe.position);
+    Scratch scratch(P::table_bytes(count) + 64);
+    ChoicePoint<double> point{};
+    point.x = Vec3<double>(0), point.n = probe.normal;
+    const auto table = policy.template prepare<double>(point, columns.view(), scratch);
+    for (std::size_t j = 0; j < count; ++j) view.probability[j] = table.probability(static_cast<LightIndex>(j));
+    return view;
+}
+
+}  // namespace
+
+PolicyView policy_at(std::string_view policy, const Scene& scene, const Probe& probe)
+{
+    PolicyView view;
+    bool is_known = false;
+    for_each_type(Policies{}, [&]<class P>() {
+        if (P::name != policy) return;
+        view = view_of<P>(scene, probe);
+        is_known = true;
+    });
+    if (!is_known) throw std::out_of_range("no policy is called " + std::string(policy));
+    return view;
+}
+
+bool LightTechniqueView::keeps_above(const Ball& ball, const Vec3<double>& n) const
+{
+    return is_above(ball, n) || !(pdf(ball.cap, n, -0.5 * ball.sin_max) > 0);
+}
+
+LightTechniqueView light_technique(std::string_view technique)
+{
+    LightTechniqueView view;
+    for_each_type(Techniques{}, [&]<class K>() {
+        if constexpr (K::chooses_light) {
+            if (K::name == technique)
+                view = {K::sums_lights, [](const Cap<double>& cap, const Vec3<double>& n, double cos_theta) {
+                            return K::pdf(cap, n, cos_theta);
+                        }};
+        }
+    });
+    if (view.pdf == nullptr) throw std::out_of_range("no technique draws a light as " + std::string(technique));
+    return view;
+}
+
+DirectionPdf direction_technique(std::string_view technique)
+{
+    DirectionPdf pdf = nullptr;
+    for_each_type(Techniques{}, [&]<class K>() {
+        if constexpr (!K::chooses_light) {
+            if (K::name == technique)
+                pdf = [](double bsdf_pdf, const Vec3<double>& wi) { return K::pdf(bsdf_pdf, wi); };
+        }
+    });
+    if (pdf == nullptr) throw std::out_of_range("no technique draws a direction as " + std::string(technique));
+    return pdf;
+}
+
+}  // namespace mis

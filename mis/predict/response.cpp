@@ -1,0 +1,29 @@
+#include "mis/predict/response.h"
+
+#include "mis/bsdf/registry.h"
+
+#include <stdexcept>
+
+namespace mis {
+
+Response::Response(const Material& material, const Vec3<double>& n, const Vec3<double>& wo)
+    : frame_(frame_around(n)), wo_(wo), wo_local_(frame_.to_local(wo))
+{
+    for_each_type(Bsdfs{}, [&]<class B>() {
+        if (B::name != material.type) return;
+        const B bsdf(material);
+        draws_ = bsdf.draws();
+        evaluate_ = [bsdf](const Vec3<double>& o, const Vec3<double>& i) { return bsdf.evaluate(o, i); };
+    });
+    if (!evaluate_) throw std::out_of_range("no BSDF is called " + material.type);
+}
+
+Reflected Response::at(const Vec3<double>& wi) const
+{
+    const Vec3<double> local = frame_.to_local(wi);
+    if (!(local.z > 0)) return {};
+    const BsdfValue<double> value = evaluate_(wo_local_, local);
+    return {value.f, value.pdf, local.z};
+}
+
+}  // namespace mis

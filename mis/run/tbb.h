@@ -1,0 +1,22 @@
+#pragma once
+
+#include "mis/run/executor.h"
+
+#include <memory>
+
+namespace mis {
+
+/// On a oneTBB arena of `threads` threads, the caller's among them; 0 takes as many as the machine has.
+class TbbExecutor {
+public:
+    explicit TbbExecutor(int threads = 0);
+    int threads() const;
+    void for_each(std::size_t n, const std::function<void(std::size_t)>& body) const;
+
+private:
+    struct Arena;
+    std::shared_ptr<Arena> arena_;
+};
+static_assert(Executor<TbbExecutor>);
+
+}  // namespace mis

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "mis/math/lanes.h"
+
+#include <array>
+#include <cstdint>
+
+namespace mis {
+
+// Random numbers without state: a number is a function of (seed, point, sample, draw, dimension) alone, so any part of
+// the work can run anywhere, in any order, and be merged.
+
+/// Where in a study a random number is spent.
+struct Counter {
+    std::uint32_t point;   ///< number of the shading point
+    std::uint64_t sample;  ///< number of the sample at that point
+    std::uint32_t draw;    ///< number of the draw within the sample
+};
+
+/// The dimensions of one draw come in two blocks of four 32-bit words.
+///   light: choice (2 words, 64 bits), cap u, cap v;   bsdf: technique, lobe, BSDF u, BSDF v.
+enum class Block : std::uint32_t { light = 0, bsdf = 1 };
+
+using Words = std::array<std::uint32_t, 4>;
+
+namespace detail {
+/// One round of Philox-4×32.
+MIS_INLINE Words philox_round(const Words& c, std::uint32_t key0, std::uint32_t key1)
+{
+    const std::uint64_t a = std::uint64_t{0xD2511F53u} * c[0], b = std::uint64_t{0xCD9E8D57u} * c[2];
+    return {static_cast<std::uint32_t>(b >> 32) ^ c[1] ^ key0, static_cast<std::uint32_t>(b),
+            static_cast<std::uint32_t>(a >> 32) ^ c[3] ^ key1, static_cast<std::uint32_t>(a)};
+}
+}  // namespace detail
+
+/// Four random words. Philox-4×32 with the seven rounds that pass BigCrush.
+/// Source: Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", table 2.
+MIS_INLINE Words random_words(std::uint64_t seed, const Counter& counter, Block block)
+{
+    Words c{counter.point, static_cast<std::uint32_t>(counter.sample), counter.draw,
+            static_cast<std::uint32_t>(counter.sample >> 32) << 1 | static_cast<std::uint32_t>(block)};
+    auto key0 = static_cast<std::uint32_t>(seed), key1 = static_cast<std::uint32_t>(seed >> 32);
+    for (int round = 0; round < 7; ++round) {
+        c = detail::philox_round(c, key0, key1);
+        key0 += 0x9E3779B9u;
+        key1 += 0xBB67AE85u;
+    }
+    return c;
+}
+
+/// A word as a number in [0, 1): 24 bits of it in float, all 32 in double.
+template <class T> MIS_INLINE T unit_number(std::uint32_t word)
+{
+    if constexpr (sizeof(T) == 4) return static_cast<T>(static_cast<std::int32_t>(word >> 8)) * T(0x1p-24);
+    else return static_cast<T>(word) * T(0x1p-32);
+}
+
+/// The 64 bits of a discrete choice.
+MIS_INLINE std::uint64_t choice_bits(const Words& light_block)
+{
+    return std::uint64_t{light_block[0]} << 32 | light_block[1];
+}
+
+}  // namespace mis

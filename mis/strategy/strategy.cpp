@@ -1,0 +1,206 @@
+#include "mis/strategy/strategy.h"
+
+#include "mis/heuristic/registry.h"
+#include "mis/policy/registry.h"
+#include "mis/scene/nearest_name.h"
+#include "mis/strategy/names.h"
+#include "mis/technique/registry.h"
+
+#include <charconv>
+
+namespace mis {
+
+namespace {
+
+template <class List> std::vector<Choosable> listed(List list)
+{
+    std::vector<Choosable> names;
+    for_each_type(list, [&]<class C>() { names.push_back({std::string(C::name), std::string(C::summary)}); });
+    return names;
+}
+
+const Choosable* find(const std::vector<Choosable>& list, std::string_view name)
+{
+    for (const Choosable& c : list)
+        if (c.name == name) return &c;
+    return nullptr;
+}
+
+std::vector<std::string_view> names(const std::vector<Choosable>& list)
+{
+    std::vector<std::string_view> views;
+    for (const Choosable& c : list) views.push_back(c.name);
+    return views;
+}
+
+std::string known(const std::vector<Choosable>& list) { return comma_list(names(list)); }
+
+/// "\n    Did you mean …?", or nothing where no name is near.
+std::string suggestion(std::string_view found, const std::vector<Choosable>& list)
+{
+    const std::string_view near = nearest_name(found, names(list));
+    return near.empty() ? "" : "\n    Did you mean \"" + std::string(near) + "\"?";
+}
+
+[[noreturn]] void refuse_unknown(std::string_view strategy, std::string_view kind, std::string_view found,
+                                 const std::vector<Choosable>& list)
+{
+    throw StrategyError("strategy \"" + std::string(strategy) + "\": found " + std::string(kind) + " \"" +
+                        std::string(found) + "\"; known are " + known(list) + suggestion(found, list));
+}
+
+[[noreturn]] void refuse(std::string_view strategy, const std::string& reason)
+{
+    throw StrategyError("strategy \"" + std::string(strategy) + "\": " + reason);
+}
+
+bool chooses_light(std::string_view technique)
+{
+    bool chooses = false;
+    for_each_type(Techniques{}, [&]<class K>() { chooses = chooses || (K::name == technique && K::chooses_light); });
+    return chooses;
+}
+
+std::array<int, 2> parse_counts(std::string_view strategy, std::string_view text)
+{
+    std::array<int, 2> counts{};
+    const std::size_t plus = text.find('+');
+    const auto number = [&](std::string_view digits, int& out) {
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
+        return error == std::errc{} && end == digits.data() + digits.size() && out >= 0 && out <= 1'000'000;
+    };
+    if (plus == std::string_view::npos || !number(text.substr(0, plus), counts[0]) ||
+        !number(text.substr(plus + 1), counts[1]))
+        refuse(strategy, "found counts \"@" + std::string(text) +
+                             "\"; counts are @LIGHT+BSDF draws per sample, 0 to 1000000 each, as in @4+1");
+    return counts;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator)
+{
+    std::vector<std::string_view> parts;
+    for (std::size_t at; (at = text.find(separator)) != std::string_view::npos; text.remove_prefix(at + 1))
+        parts.push_back(text.substr(0, at));
+    parts.push_back(text);
+    return parts;
+}
+
+}  // namespace
+
+bool draws_every_light(std::string_view policy)
+{
+    bool every = false;
+    for_each_type(Policies{}, [&]<class P>() { every = every || (P::name == policy && P::draws_every_light); });
+    return every;
+}
+
+bool looks_at_point(std::string_view policy)
+{
+    bool looks = false;
+    for_each_type(Policies{}, [&]<class P>() { looks = looks || (P::name == policy && P::looks_at_point); });
+    return looks;
+}
+
+const std::vector<Choosable>& policy_names()
+{
+    static const std::vector<Choosable> names = listed(Policies{});
+    return names;
+}
+const std::vector<Choosable>& heuristic_names()
+{
+    static const std::vector<Choosable> names = listed(Heuristics{});
+    return names;
+}
+const std::vector<Choosable>& technique_names()
+{
+    static const std::vector<Choosable> names = listed(Techniques{});
+    return names;
+}
+
+std::string name_of(const Strategy& s)
+{
+    if (!s.chooses_light()) return s.technique;
+    std::string name = s.policy + "/" + s.heuristic;
+    if (s.technique != "cone") name += "/" + s.technique;
+    if (s.model == Model::one_sample) name += "/one-sample";
+    const std::array<int, 2> usual = s.heuristic == "light" ? std::array{1, 0} : std::array{1, 1};
+    if (s.counts != usual) name += "@" + std::to_string(s.counts[0]) + "+" + std::to_string(s.counts[1]);
+    return name;
+}
+
+Strategy checked(Strategy s)
+{
+    const std::string name = name_of(s);
+    if (find(technique_names(), s.technique) == nullptr)
+        refuse_unknown(name, "technique", s.technique, technique_names());
+    if (!s.chooses_light()) {
+        if (chooses_light(s.technique)) refuse(name, "\"" + s.technique + "\" draws towards a light: name a policy");
+        if (!s.heuristic.empty() || s.model == Model::one_sample || s.counts != std::array{0, 1})
+            refuse(name, "a strategy that chooses no light has one draw and nothing to combine it with");
+        return s;
+    }
+    if (find(policy_names(), s.policy) == nullptr) refuse_unknown(name, "policy", s.policy, policy_names());
+    if (s.heuristic == "brdf" || s.heuristic == "cosine" || s.heuristic == "hemisphere")
+        refuse(name, "it draws no light, so it has no policy; say \"" + s.heuristic + "\"");
+    if (find(heuristic_names(), s.heuristic) == nullptr)
+        refuse_unknown(name, "heuristic", s.heuristic, heuristic_names());
+    if (!chooses_light(s.technique))
+        refuse(name, "\"" + s.technique + "\" draws no light, so it has no policy; say \"" + s.technique + "\"");
+    const bool single = s.heuristic == "light";
+    if (s.model == Model::one_sample) {
+        if (single) refuse(name, "one-sample chooses between techniques, and \"light\" has only one");
+        if (draws_every_light(s.policy))
+            refuse(name, "one-sample draws one technique once, and \"" + s.policy + "\" draws for every light");
+        if (s.counts != std::array{1, 1}) refuse(name, "one-sample takes one draw, so it has no counts");
+    }
+    if (s.counts[0] == 0) refuse(name, "it draws no light; say \"brdf\"");
+    if (single && s.counts[1] != 0)
+        refuse(name, "\"light\" has no BSDF draw; say @" + std::to_string(s.counts[0]) + "+0");
+    if (!single && s.counts[1] == 0)
+        refuse(name, "\"" + s.heuristic + "\" combines light and BSDF draws, and there is none of the BSDF; say \"" +
+                         s.policy + "/light@" + std::to_string(s.counts[0]) + "+0\"");
+    return s;
+}
+
+Strategy parse_strategy(std::string_view name)
+{
+    const std::size_t at = name.find('@');
+    const std::vector<std::string_view> parts = split(name.substr(0, at), '/');
+    Strategy s;
+    if (parts.size() == 1) {
+        s.technique = parts[0];
+        s.counts = {0, 1};
+        if (find(policy_names(), parts[0]) != nullptr)
+            refuse(name, "a policy needs a heuristic: \"" + std::string(parts[0]) + "/light\", or one of " +
+                             known(heuristic_names()));
+        if (find(technique_names(), parts[0]) == nullptr) {
+            std::vector<Choosable> whole;
+            for (const Choosable& c : technique_names())
+                if (!mis::chooses_light(c.name)) whole.push_back(c);
+            throw StrategyError("found \"" + std::string(name) + "\"; a strategy is policy/heuristic, or one of " +
+                                known(whole) + suggestion(name, whole));
+        }
+    } else {
+        s.policy = parts[0];
+        s.heuristic = parts[1];
+        if (s.policy.empty()) refuse_unknown(name, "policy", "", policy_names());
+        if (s.heuristic == "light") s.counts = {1, 0};
+        bool has_technique = false;
+        for (std::size_t i = 2; i < parts.size(); ++i) {
+            if (parts[i] == "one-sample" && s.model == Model::multi) {
+                s.model = Model::one_sample;
+            } else if (find(technique_names(), parts[i]) != nullptr && !has_technique && s.model == Model::multi) {
+                s.technique = parts[i];
+                has_technique = true;
+            } else {
+                std::vector<Choosable> allowed = technique_names();
+                allowed.push_back({"one-sample", ""});
+                refuse_unknown(name, "part", parts[i], allowed);
+            }
+        }
+    }
+    if (at != std::string_view::npos) s.counts = parse_counts(name, name.substr(at + 1));
+    return checked(std::move(s));
+}
+
+}  // namespace mis

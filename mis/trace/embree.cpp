@@ -1,0 +1,258 @@
+#include "mis/trace/embree.h"
+
+#include "mis/trace/intersect.h"
+#include "mis/trace/surface_points.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#if MIS_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+namespace mis {
+
+namespace {
+
+/// A sphere of the scene, in the tracer's frame.
+struct PlacedSphere {
+    Vec3<double> center;
+    double radius;
+    std::size_t surface;
+};
+
+const PlacedSphere& placed(const void* spheres, unsigned primitive)
+{
+    return (*static_cast<const std::vector<PlacedSphere>*>(spheres))[primitive];
+}
+
+void sphere_bounds(const RTCBoundsFunctionArguments* args)
+{
+    const PlacedSphere& s = placed(args->geometryUserPtr, args->primID);
+    const double reach = s.radius + float_offset(s.radius + largest_coordinate(s.center));
+    const Vec3<float> low = vec_cast<float>(s.center - reach), high = vec_cast<float>(s.center + reach);
+    *args->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
+}
+
+/// Where ray i of a packet meets a sphere within its interval, or infinity.
+float sphere_distance(RTCRayN* ray, unsigned count, unsigned i, const PlacedSphere& s)
+{
+    const Vec3<double> origin{RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i), RTCRayN_org_z(ray, count, i)};
+    const Vec3<double> direction{RTCRayN_dir_x(ray, count, i), RTCRayN_dir_y(ray, count, i),
+                                 RTCRayN_dir_z(ray, count, i)};
+    const auto distance = static_cast<float>(hit_sphere(origin, direction, s.center, s.radius));
+    const bool within = distance > RTCRayN_tnear(ray, count, i) && distance < RTCRayN_tfar(ray, count, i);
+    return within ? distance : std::numeric_limits<float>::infinity();
+}
+
+void sphere_occluded(const RTCOccludedFunctionNArguments* args)
+{
+    const PlacedSphere& s = placed(args->geometryUserPtr, args->primID);
+    for (unsigned i = 0; i < args->N; ++i)
+        if (args->valid[i] != 0 && sphere_distance(args->ray, args->N, i, s) < std::numeric_limits<float>::infinity())
+            RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
+}
+
+void sphere_intersect(const RTCIntersectFunctionNArguments* args)
+{
+    const PlacedSphere& s = placed(args->geometryUserPtr, args->primID);
+    RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
+    RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const float distance = sphere_distance(ray, args->N, i, s);
+        if (!(distance < std::numeric_limits<float>::infinity())) continue;
+        RTCRayN_tfar(ray, args->N, i) = distance;
+        RTCHitN_primID(hit, args->N, i) = args->primID;
+        RTCHitN_geomID(hit, args->N, i) = args->geomID;
+        RTCHitN_instID(hit, args->N, i, 0) = RTC_INVALID_GEOMETRY_ID;
+    }
+}
+
+RTCRay ray_of(const Vec3<float>& origin, const Vec3<float>& direction, float far)
+{
+    RTCRay ray{};
+    ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
+    ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+    ray.tfar = far;
+    ray.mask = ~0U;
+    return ray;
+}
+
+/// New storage of a geometry's buffer, to be filled.
+template <class N>
+N* buffer_of(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t per_item, std::size_t items)
+{
+    void* data = rtcSetNewGeometryBuffer(geometry, type, 0, format, per_item * sizeof(N), items);
+    if (data == nullptr) throw std::runtime_error("Embree has no memory for the surfaces of the scene");
+    return static_cast<N*>(data);
+}
+
+}  // namespace
+
+/// Embree's device and scene, and which surface a geometry is.
+struct EmbreeTracer::Trees {
+    explicit Trees(const Scene& s) : scene(s), origin(frame_origin_of(s))
+    {
+        device = rtcNewDevice(nullptr);
+        if (device == nullptr) throw std::runtime_error("Embree does not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+        tree = rtcNewScene(device);
+        rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
+        try {
+            add_all();
+        } catch (...) {
+            release();
+            throw;
+        }
+        rtcCommitScene(tree);
+        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
+            release();
+            throw std::runtime_error("Embree could not build a tree over the surfaces of the scene");
+        }
+    }
+    ~Trees() { release(); }
+    Trees(const Trees&) = delete;
+    Trees& operator=(const Trees&) = delete;
+
+    void release() const
+    {
+        rtcReleaseScene(tree);
+        rtcReleaseDevice(device);
+    }
+
+    void add_all()
+    {
+        std::vector<std::size_t> quads;
+        for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+            const auto& shape = scene.surfaces[s].shape;
+            if (std::holds_alternative<Quad>(shape)) quads.push_back(s);
+            else if (const auto* sphere = std::get_if<SphereSurface>(&shape))
+                spheres.push_back({sphere->center - origin, sphere->radius, s});
+            else add_mesh(std::get<Mesh>(shape), s);
+        }
+        if (!quads.empty()) add_quads(std::move(quads));
+        if (!spheres.empty()) add_spheres();
+    }
+
+    void put(float* vertices, std::size_t i, const Vec3<double>& p) const
+    {
+        const Vec3<float> v = vec_cast<float>(p - origin);
+        vertices[3 * i] = v.x, vertices[3 * i + 1] = v.y, vertices[3 * i + 2] = v.z;
+    }
+
+    void add_mesh(const Mesh& mesh, std::size_t surface)
+    {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3, mesh.positions.size());
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) put(vertices, i, mesh.positions[i]);
+        auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3, mesh.triangles.size());
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i][k];
+        attach(geometry, {surface});
+    }
+
+    void add_quads(std::vector<std::size_t> surfaces)
+    {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+        auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3, 4 * surfaces.size());
+        auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, 4, surfaces.size());
+        for (std::size_t q = 0; q < surfaces.size(); ++q) {
+            const Quad& quad = std::get<Quad>(scene.surfaces[surfaces[q]].shape);
+            put(vertices, 4 * q, quad.corner);
+            put(vertices, 4 * q + 1, quad.corner + quad.edges[0]);
+            put(vertices, 4 * q + 2, quad.corner + quad.edges[0] + quad.edges[1]);
+            put(vertices, 4 * q + 3, quad.corner + quad.edges[1]);
+            for (std::size_t k = 0; k < 4; ++k) indices[4 * q + k] = static_cast<unsigned>(4 * q + k);
+        }
+        attach(geometry, std::move(surfaces));
+    }
+
+    void add_spheres()
+    {
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
+        rtcSetGeometryUserData(geometry, &spheres);
+        rtcSetGeometryBoundsFunction(geometry, [](const RTCBoundsFunctionArguments* a) { sphere_bounds(a); }, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
+        rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+        std::vector<std::size_t> surfaces;
+        for (const PlacedSphere& s : spheres) surfaces.push_back(s.surface);
+        attach(geometry, std::move(surfaces));
+    }
+
+    /// surfaces: one, of which all primitives are triangles; or one per primitive.
+    void attach(RTCGeometry geometry, std::vector<std::size_t> surfaces)
+    {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(tree, geometry, static_cast<unsigned>(surfaces_of.size()));
+        rtcReleaseGeometry(geometry);
+        surfaces_of.push_back(std::move(surfaces));
+    }
+
+    SurfaceLocation location(unsigned geometry, unsigned primitive) const
+    {
+        const std::vector<std::size_t>& surfaces = surfaces_of[geometry];
+        const bool is_mesh = std::holds_alternative<Mesh>(scene.surfaces[surfaces[0]].shape);
+        return is_mesh ? SurfaceLocation{surfaces[0], primitive} : SurfaceLocation{surfaces[primitive], 0};
+    }
+
+    const Scene& scene;
+    Vec3<double> origin;
+    RTCDevice device = nullptr;
+    RTCScene tree = nullptr;
+    std::vector<PlacedSphere> spheres;
+    std::vector<std::vector<std::size_t>> surfaces_of;  ///< [geometry]
+};
+
+EmbreeTracer::EmbreeTracer(const Scene& scene) : trees_(std::make_unique<Trees>(scene)) {}
+EmbreeTracer::~EmbreeTracer() = default;
+
+void EmbreeTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const
+{
+    constexpr std::size_t stream = 256;
+    std::array<RTCRay, stream> batch;  // NOLINT: filled as far as it is read
+    for (std::size_t first = 0; first < rays.size(); first += stream) {
+        const std::size_t count = std::min(stream, rays.size() - first);
+        for (std::size_t i = 0; i < count; ++i) {
+            const ShadowRay& ray = rays[first + i];
+            batch[i] = ray_of(ray.origin, ray.direction, ray.distance);
+        }
+#if MIS_EMBREE_MAJOR >= 4
+        for (std::size_t i = 0; i < count; ++i) rtcOccluded1(trees_->tree, &batch[i], nullptr);
+#else
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcOccluded1M(trees_->tree, &context, batch.data(), static_cast<unsigned>(count), sizeof(RTCRay));
+#endif
+        for (std::size_t i = 0; i < count; ++i) hidden[first + i] = batch[i].tfar < 0 ? 1 : 0;
+    }
+}
+
+std::optional<SurfaceHit> EmbreeTracer::first_hit(const Vec3<double>& origin, const Vec3<double>& direction) const
+{
+    RTCRayHit ray{};
+    ray.ray = ray_of(vec_cast<float>(origin - trees_->origin), vec_cast<float>(direction),
+                     std::numeric_limits<float>::infinity());
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if MIS_EMBREE_MAJOR >= 4
+    rtcIntersect1(trees_->tree, &ray, nullptr);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(trees_->tree, &context, &ray);
+#endif
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return hit_at(trees_->scene, trees_->location(ray.hit.geomID, ray.hit.primID), origin, direction, trees_->origin);
+}
+
+Vec3<double> EmbreeTracer::origin() const { return trees_->origin; }
+
+double EmbreeTracer::offset_at(const Vec3<double>& x) const
+{
+    return offset_of_point(trees_->scene, x, trees_->origin);
+}
+
+}  // namespace mis

@@ -1,0 +1,126 @@
+#include "mis/compare/sentences.h"
+
+#include "mis/compare/rank.h"
+#include "tests/compare/simulated.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace mis {
+namespace {
+
+SceneReport scene_of(std::vector<StrategyMeasurements> strategies)
+{
+    Ranking ranking = rank({.points = 64, .strategies = std::move(strategies)}, {});
+    SceneReport scene;
+    scene.strategies = std::move(ranking.strategies);
+    scene.pairs = std::move(ranking.pairs);
+    scene.settled = ranking.settled;
+    return scene;
+}
+
+std::string all_of(const SceneReport& scene)
+{
+    std::string text;
+    for (const std::string& sentence : sentences_of(scene, 2, 0.02)) text += sentence + "\n";
+    return text;
+}
+
+/// `said`, up to the first number that a clock decided.
+void expect_said(const std::string& text, const std::string& said)
+{
+    EXPECT_NE(text.find(said), std::string::npos) << text;
+}
+
+TEST(Sentences, BeginWithWhatToUseAndWhatItSaves)
+{
+    const SceneReport scene = scene_of({simulate("uniform", uniform_samples(0.3)),
+                                        simulate("solid-angle", uniform_samples(0.02)),
+                                        simulate("other", uniform_samples(0.2))});
+    const auto sentences = sentences_of(scene, 2, 0.02);
+    EXPECT_EQ(sentences[0].find("Use solid-angle/power: it reaches 1 % error 1"), 0u)
+        << sentences[0];
+    EXPECT_NE(sentences[0].find("times sooner than uniform/power"), std::string::npos);
+    EXPECT_NE(sentences[0].find("on 2 threads)."), std::string::npos);
+    expect_said(all_of(scene), "It is sure to lead in efficiency");
+}
+
+TEST(Sentences, CompareWithTheNextBestWhereNothingUsualRan)
+{
+    expect_said(
+        all_of(scene_of({simulate("a", uniform_samples(0.1)), simulate("b", uniform_samples(0.3)),
+                         simulate("c", uniform_samples(0.9))})),
+        "times sooner than b/power");
+}
+
+TEST(Sentences, NameTiesAndTheUndecided)
+{
+    StrategyMeasurements a = simulate("a", uniform_samples(0.1)), twin = a;
+    twin.strategy = named("twin");
+    const std::string text = all_of(scene_of(
+        {a, twin, simulate("b", uniform_samples(0.101)), simulate("c", uniform_samples(0.9))}));
+    expect_said(text, "a/power and twin/power are tied in variance within 2 %");
+    expect_said(text, "more replicates would decide.");
+}
+
+TEST(Sentences, GiveTheReasonOfWhatIsExcluded)
+{
+    StrategyMeasurements dear;
+    dear.strategy = named("dear");
+    dear.was_run = false;
+    dear.not_run_reason = "one sample takes 10000 draws";
+    dear.estimated_seconds = 600;
+    StrategyMeasurements broken = simulate("broken", uniform_samples(0.3));
+    broken.invalid_samples = 3;
+    const std::string text = all_of(scene_of(
+        {simulate("a", uniform_samples(0.1)), simulate("b", uniform_samples(0.2)),
+         simulate("c", rare_samples(1e-4)), broken,
+         simulate("d", [](Random& bits) { return 1.2 * uniform_samples(0.1)(bits); }), dear}));
+    expect_said(text, "c/power is not resolved: its variance is carried by about");
+    expect_said(text, "d/power is biased: its mean is 20 % above");
+    expect_said(text,
+                "dear/power was not run: one sample takes 10000 draws (it would take about 10 min "
+                "of CPU time).");
+    expect_said(text, "broken/power gave 3 samples that are no numbers");
+}
+
+TEST(Sentences, SayWhatIsExact)
+{
+    const std::string text =
+        all_of(scene_of({simulate_exact("x"), simulate("a", uniform_samples(0.1))}));
+    expect_said(text, "Use x/power");
+    expect_said(text, "x/power is exact here");
+}
+
+TEST(Sentences, SayThatTheLeastVarianceCostsMore)
+{
+    const std::string text =
+        all_of(scene_of({simulate("a", uniform_samples(0.1), {.seconds_per_sample = 1e-7}),
+                         simulate("b", uniform_samples(0.3))}));
+    expect_said(text, "Use b/power");
+    expect_said(text, "Per sample a/power has the least variance, 3");
+    expect_said(text, "times as much");
+}
+
+TEST(Sentences, SayThatNothingCouldBeRanked)
+{
+    const SceneReport scene = scene_of({simulate("c", rare_samples(1e-4))});
+    EXPECT_EQ(sentences_of(scene, 2, 0.02)[0], "No strategy could be ranked on this scene.");
+    EXPECT_EQ(sentences_of({}, 1, 0.02).size(), 1u);
+}
+
+TEST(Sentences, HoldNoNumberThatIsNone)
+{
+    StrategyMeasurements untimed = simulate("a", uniform_samples(0.1));
+    untimed.times.clear();
+    for (const SceneReport& scene :
+         {scene_of({simulate_exact("x"), simulate_exact("y"), untimed}), scene_of({untimed})}) {
+        const std::string text = all_of(scene);
+        for (const char* none : {"nan", "inf", "?"})
+            EXPECT_EQ(text.find(none), std::string::npos) << text;
+    }
+}
+
+}  // namespace
+}  // namespace mis

@@ -1,0 +1,122 @@
+#include "mis/io/report_json.h"
+
+#include "tests/io/sample_report.h"
+#include "tests/io/schema_check.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+namespace mis {
+namespace {
+
+using Json = nlohmann::json;
+
+Json described() { return Json::parse(std::ifstream(MIS_SOURCE_DIR "/docs/report.schema.json")); }
+Json emitted() { return Json::parse(report_json(sample_report())); }
+
+Json strategy_named(const Json& scene, const std::string& name)
+{
+    for (const Json& s : scene["strategies"])
+        if (s["name"] == name) return s;
+    return {};
+}
+
+TEST(ReportJson, IsAsItsDescriptionSays)
+{
+    const SchemaCheck check(described());
+    EXPECT_EQ(check.first_fault(emitted()), "");
+    EXPECT_EQ(check.first_fault(Json::parse(report_json({}))), "");
+    Report bare;
+    bare.scenes.resize(2);
+    EXPECT_EQ(check.first_fault(Json::parse(report_json(bare))), "");
+}
+
+TEST(ReportJson, IsNotAsDescribedOnceAnythingChanges)
+{
+    const SchemaCheck check(described());
+    Json lacking = emitted(), wrong = emitted(), more = emitted(), null = emitted();
+    lacking["scenes"][0]["strategies"][0].erase("rank_low");
+    EXPECT_EQ(check.first_fault(lacking), "/scenes/0/strategies/0: lacks \"rank_low\"");
+    wrong["scenes"][0]["strategies"][0]["status"] = "good";
+    EXPECT_NE(check.first_fault(wrong), "");
+    more["extra"] = 1;
+    EXPECT_EQ(check.first_fault(more), ": has an unknown \"extra\"");
+    null["seed"] = nullptr;
+    EXPECT_NE(check.first_fault(null), "");
+}
+
+TEST(ReportJson, HoldsTheFiguresWithAllTheirDigits)
+{
+    const Report report = sample_report();
+    const StrategyReport& first = report.scenes[0].strategies[0];
+    const Json s = emitted()["scenes"][0]["strategies"][0];
+    EXPECT_EQ(s["name"], "solid-angle/power");
+    EXPECT_EQ(s["variance"]["value"].get<double>(), first.variance.value);
+    EXPECT_EQ(s["variance"]["low"].get<double>(), first.variance.low);
+    EXPECT_EQ(s["seconds_to_1_percent"].get<double>(), first.seconds_to_1_percent.value);
+    EXPECT_EQ(s["tied_with"], Json({"radiant-solid-angle/balance"}));
+    EXPECT_EQ(s["stage_seconds"]["choose"].get<double>(), first.stage_seconds.at("choose"));
+    EXPECT_EQ(s["probes"].size(), 2u);
+}
+
+TEST(ReportJson, NamesStrategiesAsData)
+{
+    const Json scene = emitted()["scenes"][0];
+    const Json brdf = strategy_named(scene, "brdf");
+    EXPECT_TRUE(brdf["policy"].is_null());
+    EXPECT_TRUE(brdf["heuristic"].is_null());
+    EXPECT_EQ(brdf["counts"], Json({0, 1}));
+    EXPECT_EQ(brdf["status"], "not_resolved");
+    EXPECT_EQ(strategy_named(scene, "uniform/light")["counts"], Json({1, 0}));
+    EXPECT_EQ(strategy_named(scene, "all/balance@4+1")["counts"], Json({4, 1}));
+    EXPECT_EQ(strategy_named(scene, "power/power/one-sample")["model"], "one-sample");
+}
+
+TEST(ReportJson, IsNullWhereThereIsNoFigure)
+{
+    const Json scene = emitted()["scenes"][0];
+    const Json dear = strategy_named(scene, "all/balance@4+1"),
+               exact = strategy_named(scene, "uniform/light");
+    EXPECT_EQ(dear["status"], "not_run");
+    EXPECT_TRUE(dear["variance"]["value"].is_null());
+    EXPECT_TRUE(dear["rank"].is_null());
+    EXPECT_EQ(dear["estimated_seconds"], 600);
+    EXPECT_EQ(exact["exact"], true);
+    EXPECT_EQ(exact["variance"]["value"], 0);
+    EXPECT_TRUE(exact["efficiency"]["value"].is_null());  // infinite
+}
+
+TEST(ReportJson, BeginsItsSentencesWithTheVerdict)
+{
+    EXPECT_EQ(emitted()["scenes"][0]["sentences"][0].get<std::string>().find("Use uniform/light"),
+              0u);
+}
+
+TEST(ReportJson, SurvivesNamesThatAreNotUtf8)
+{
+    Report report = sample_report();
+    report.scenes[0].file = "caf\xe9.json";
+    EXPECT_TRUE(Json::accept(report_json(report)));
+}
+
+TEST(ReportJson, IsExplainedKeyByKey)
+{
+    std::ifstream file(MIS_SOURCE_DIR "/docs/report-format.md");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    ASSERT_FALSE(text.empty());
+    const Json schema = described();
+    std::set<std::string> keys;
+    const auto add = [&](const Json& object) {
+        const Json properties = object.value("properties", Json::object());
+        for (const auto& [key, rule] : properties.items()) keys.insert(key);
+    };
+    add(schema);
+    for (const auto& [name, definition] : schema["$defs"].items()) add(definition);
+    for (const std::string& key : keys)
+        EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
+}
+
+}  // namespace
+}  // namespace mis

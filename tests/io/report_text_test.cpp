@@ -1,0 +1,97 @@
+#include "mis/io/report_text.h"
+
+#include "mis/io/text_layout.h"
+#include "tests/io/sample_report.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace mis {
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+    return lines;
+}
+
+std::string line_with(const std::string& text, const std::string& part)
+{
+    for (const std::string& line : lines_of(text))
+        if (line.find(part) != std::string::npos) return line;
+    return "";
+}
+
+TEST(ReportText, FitsEightyColumns)
+{
+    for (const std::string& line : lines_of(report_text(sample_report())))
+        EXPECT_LE(width_of(line), 80u) << line;
+}
+
+TEST(ReportText, FitsEightyColumnsWithTheLongestNamesAndFigures)
+{
+    Report report = sample_report();
+    for (StrategyReport& s : report.scenes[0].strategies) {
+        s.strategy.policy = "radiant-solid-angle";
+        s.strategy.technique = "projected";
+        s.strategy.heuristic = "balance";
+        s.variance = {1.234e-12, 1e-12, 1.5e-12};
+        s.seconds_per_sample.value = 12345e-9;
+        s.efficiency.value = 1.2e12;
+        s.seconds_to_1_percent.value = 123456;
+    }
+    for (const std::string& line : lines_of(report_text(report)))
+        EXPECT_LE(width_of(line), 80u) << line;
+}
+
+TEST(ReportText, ShowsTheTableByRankWithTiesMarked)
+{
+    const std::string text = scene_text(sample_report().scenes[0], sample_report());
+    EXPECT_NE(line_with(text, "rank  strategy").find("variance"), std::string::npos);
+    EXPECT_EQ(line_with(text, " uniform/light").find("   1  uniform/light"), 0u) << text;
+    EXPECT_NE(line_with(text, "~solid-angle/power").find(" 2-3 ~"), std::string::npos) << text;
+    EXPECT_LT(text.find("uniform/light"), text.find("~solid-angle/power"));
+    EXPECT_NE(line_with(text, "- power/power/one-sample").size() +
+                  line_with(text, "-  power/power").size(),
+              0u);
+    EXPECT_NE(text.find("not resolved"), std::string::npos);
+    EXPECT_NE(text.find("not run"), std::string::npos);
+    EXPECT_NE(text.find("±"), std::string::npos);
+}
+
+TEST(ReportText, BeginsWithTheSceneAndItsEffects)
+{
+    const auto lines = lines_of(report_text(sample_report()));
+    EXPECT_EQ(
+        lines[0].find("plates (scenes/plates.json): 8x8, 64 shading points, 5 lights, 7 surfaces"),
+        0u)
+        << lines[0];
+    EXPECT_NE(report_text(sample_report())
+                  .find("effects: shadows (80 % of tiles); not called for: horizon\n"),
+              std::string::npos);
+}
+
+TEST(ReportText, HoldsNoNumberThatIsNone)
+{
+    const std::string text = report_text(sample_report());
+    for (const char* none : {"nan", "inf"}) EXPECT_EQ(text.find(none), std::string::npos) << text;
+}
+
+TEST(ReportText, ShowsProbesApartAndAllScenesTogether)
+{
+    const std::string text = report_text(sample_report());
+    EXPECT_NE(text.find("probe 1"), std::string::npos);
+    EXPECT_NE(text.find("All 2 scenes"), std::string::npos);
+    EXPECT_EQ(overall_text({}), "");
+}
+
+TEST(ReportText, OfNothingIsASentence)
+{
+    EXPECT_NE(scene_text({}, {}).find("No strategy could be ranked"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mis
