@@ -38,7 +38,7 @@ int run_explain(const ExplainOptions& options);
 
 struct IntegrateOptions {
     std::string pdf = "all";       ///< hemisphere, cosine, angles, blinn; or all
-    std::string exponent;          ///< of the lobe, as typed; empty: 10
+    std::optional<std::string> exponent;  ///< of the lobe, as typed; 10 where it is not
     std::string samples = "10000"; ///< as typed
     std::uint64_t seed = 1;
     std::string command_line;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace mis::cli {
@@ -23,9 +24,10 @@ constexpr std::array<std::string_view, 5> pdf_names{"hemisphere", "cosine", "ang
                                                     "all"};
 constexpr std::uint64_t most_samples = 1'000'000'000;
 
-std::optional<double> number_in(const std::string& text)
+/// The number that the whole text is.
+template <class T> std::optional<T> number_in(const std::string& text)
 {
-    double value = 0;
+    T value{};
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     return error == std::errc{} && rest == end ? std::optional(value) : std::nullopt;
@@ -33,7 +35,7 @@ std::optional<double> number_in(const std::string& text)
 
 std::uint64_t samples_of(const IntegrateOptions& options)
 {
-    const std::optional<double> n = number_in(options.samples);
+    const std::optional<double> n = number_in<double>(options.samples);
     if (!n || !(*n >= 1 && *n <= double(most_samples)) || *n != std::floor(*n))
         throw UsageError(fmt::format("-n: found \"{}\"; a number of draws is whole, from 1 to {}",
                                      options.samples, most_samples));
@@ -43,12 +45,12 @@ std::uint64_t samples_of(const IntegrateOptions& options)
 double exponent_of(const IntegrateOptions& options)
 {
     constexpr double usual = 10;
-    if (options.exponent.empty()) return usual;
-    const std::optional<double> m = number_in(options.exponent);
+    if (!options.exponent) return usual;
+    const std::optional<double> m = number_in<double>(*options.exponent);
     if (!m || !(*m >= 0) || !std::isfinite(*m))
         throw UsageError(
             fmt::format("--exponent: found \"{}\"; an exponent is a finite number, at least 0",
-                        options.exponent));
+                        *options.exponent));
     if (options.pdf != "blinn" && options.pdf != "all")
         throw UsageError(fmt::format("--exponent: found with --pdf {}; only blinn has an exponent",
                                      options.pdf));
@@ -76,9 +78,9 @@ std::vector<Entry> entries_of(const IntegrateOptions& options)
 /// What is wrong with a seed; empty if nothing is. Without it -1 would be taken for 2^64 - 1.
 std::string seed_fault(const std::string& text)
 {
-    const bool is_whole =
-        !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-    return is_whole ? "" : "found \"" + text + "\"; a seed is a whole number, at least 0";
+    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+    if (number_in<std::uint64_t>(text)) return "";
+    return fmt::format("found \"{}\"; a seed is a whole number from 0 to {}", text, most);
 }
 
 /// What the file "-" leaves of standard output to people.
@@ -135,40 +137,36 @@ std::string table_row(std::span<const Entry> block)
     return row + "\n";
 }
 
-/// Goes on to `count` draws in steps short enough to be interrupted between; false where that
-/// happened.
-bool advance(HemisphereRun& run, std::uint64_t count)
-{
-    constexpr std::uint64_t step = HemisphereRun::chunk * 256;
-    while (run.values.count < count && !interrupt_flag())
-        run.advance_to(std::min(count, run.values.count + step));
-    return run.values.count == count;
-}
-
 /// All draws of some densities side by side, a row at every doubling. False where interrupted; what
 /// was drawn is kept.
-bool run_block(std::span<Entry> block, const IntegralReport& report, const Console& console,
-               Progress& progress)
+bool run_block(std::span<Entry> block, const IntegralReport& report, const Console& console)
 {
+    constexpr std::uint64_t step = HemisphereRun::chunk * 256;  // between two looks at Ctrl-C
+    Progress progress(true);
     std::vector<HemisphereRun> runs;
     for (const Entry& entry : block)
         runs.push_back({.estimator = entry.estimator, .seed = report.seed});
     console.print("\n" + table_head(block));
-    std::uint64_t count = 1;
-    while (true) {
-        bool is_whole = true;
+    const double whole = double(report.samples) * double(block.size());
+    std::uint64_t count = 0;
+    while (count < report.samples) {
+        const std::uint64_t before = count;
+        count = std::min(std::max<std::uint64_t>(1, 2 * before), report.samples);
         for (std::size_t i = 0; i < block.size(); ++i) {
-            const std::uint64_t before = runs[i].values.count;
-            is_whole = advance(runs[i], count) && is_whole;
-            if (runs[i].values.count > before) block[i].running.push_back(runs[i]);
+            std::uint64_t& drawn = runs[i].values.count;
+            while (drawn < count && !interrupt_flag()) {
+                runs[i].advance_to(std::min(count, drawn + step));
+                progress.show("drawing", (double(before) * double(block.size() - i - 1) +
+                                          double(count) * double(i) + double(drawn)) /
+                                             whole);
+            }
+            if (drawn > before) block[i].running.push_back(runs[i]);
+            if (drawn < count) return false;
         }
-        if (!is_whole) return false;
         progress.clear();
         console.print(table_row(block));
-        if (count == report.samples) return true;
-        count = std::min(2 * count, report.samples);
-        progress.show("drawing", double(count) / 2 / double(report.samples));
     }
+    return true;
 }
 
 std::string summary_row(const Entry& entry)
@@ -272,15 +270,13 @@ int run_integrate(const IntegrateOptions& options)
         throw UsageError("--json and --csv: found - for both; standard output holds one of them");
     watch_for_interrupt();
     const Console console(options.output);
-    Progress progress(true);
     console.print(fmt::format("∫ cos θ dω over the hemisphere = π = {:.6f}, seed {}\n",
                               hemisphere_integral, options.seed));
     const std::span<Entry> all(report.densities);
     constexpr std::size_t side_by_side = 2;
     for (std::size_t i = 0; i < all.size() && !report.partial; i += side_by_side)
-        report.partial = !run_block(all.subspan(i, std::min(side_by_side, all.size() - i)), report,
-                                    console, progress);
-    progress.clear();
+        report.partial =
+            !run_block(all.subspan(i, std::min(side_by_side, all.size() - i)), report, console);
     console.print(summary(report) + (report.partial ? "\nPartial: interrupted.\n" : ""));
     if (!options.output.json.empty()) write_text(options.output.json, integral_json(report));
     if (!options.output.csv.empty()) write_text(options.output.csv, integral_csv(report));

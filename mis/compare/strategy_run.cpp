@@ -1,64 +1,85 @@
 #include "mis/compare/strategy_run.h"
 
 #include "mis/compare/pool.h"
-#include "mis/engine/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 
 namespace mis {
 
 StrategyRun::StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy, std::uint64_t seed)
-    : points_(&points), ready_(scene, strategy, kernels<float>(), seed), results_(points.shading.points.size())
+    : points_(&points), ready_(scene, strategy, kernels<float>(), seed), results_(points.shading.points.size()),
+      tiles_(points.shading.tiles.size())
 {
 }
 
-void StrategyRun::sample(int chunk, int chunks, bool is_round, std::span<const double> weights,
-                         WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int chunks, std::span<const double> weights,
+                                               std::vector<std::vector<ChunkTotals>>& totals,
+                                               WorkspacePool<float>& workspaces, const AnyExecutor& executor)
 {
-    const auto start = std::chrono::steady_clock::now();
     const GBuffer& shading = points_->shading;
-    std::vector<TileTotals> totals(shading.tiles.size());
-    std::vector<std::vector<ChunkTotals>> chunk_totals(shading.tiles.size());
+    std::vector<TileTotals> costs(shading.tiles.size());
+    totals.assign(shading.tiles.size(), std::vector<ChunkTotals>(static_cast<std::size_t>(chunks)));
     executor.for_each(shading.tiles.size(), [&](std::size_t t) {
         const Tile& tile = shading.tiles[t];
-        chunk_totals[t].resize(static_cast<std::size_t>(chunks));
+        const SampleRange range{tiles_[t].samples_per_point, allocation[t], chunks};
         workspaces.with([&](Workspace<float>& workspace) {
-            totals[t] = workspace.run(ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
-                                      ready_.pipeline(tile.material), {samples_, chunk, chunks},
-                                      std::span(results_).subspan(tile.first, tile.count),
-                                      weights.empty() ? weights : weights.subspan(tile.first, tile.count), chunk_totals[t]);
+            costs[t] = workspace.run(ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
+                                     ready_.pipeline(tile.material), range,
+                                     std::span(results_).subspan(tile.first, tile.count),
+                                     weights.empty() ? weights : weights.subspan(tile.first, tile.count), totals[t]);
         });
+        tiles_[t].samples_per_point += static_cast<std::uint64_t>(range.samples());
+        tiles_[t].cost.add(costs[t]);
     });
-    TileTotals figures;  // over the points that count
-    for (std::size_t t = 0; t < points_->figure_tiles; ++t) figures.add(totals[t]);
-    totals_.add(figures);
-    samples_ += static_cast<std::uint64_t>(chunk) * static_cast<std::uint64_t>(chunks);
-    wall_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (is_round) take_round(chunk, chunks, chunk_totals, figures);
+    for (std::size_t t = 0; t < points_->figure_tiles; ++t) samples_ += costs[t].samples;
+    return costs;
 }
 
-void StrategyRun::take_round(int chunk, int chunks, const std::vector<std::vector<ChunkTotals>>& chunk_totals,
-                             const TileTotals& round)
+void StrategyRun::sample_round(const Allocation& allocation, int replicates, std::span<const double> weights,
+                               WorkspacePool<float>& workspaces, const AnyExecutor& executor)
 {
-    const auto replicates = static_cast<std::size_t>(chunks);
-    replicate_sums_.resize(replicates);
-    region_sums_.resize(replicates, std::vector<double>(points_->regions));
-    const double n = chunk, points = static_cast<double>(std::max<std::size_t>(points_->figure_points, 1));
-    for (std::size_t r = 0; r < replicates; ++r)
-        for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
-            const ChunkTotals& sums = chunk_totals[t][r];
-            replicate_sums_[r].mean += n * sums.mean / points;
-            replicate_sums_[r].variance += (n - 1) * sums.variance / points;
-            replicate_sums_[r].relative_variance += (n - 1) * sums.relative_variance / points;
-            region_sums_[r][points_->region_of(t)] += n * sums.mean;
+    std::vector<std::vector<ChunkTotals>> totals;
+    const std::vector<TileTotals> costs = run_tiles(allocation, replicates, weights, totals, workspaces, executor);
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+        TileSums& tile = tiles_[t];
+        tile.replicates.resize(static_cast<std::size_t>(replicates));
+        const double n = allocation[t];
+        for (std::size_t r = 0; r < tile.replicates.size(); ++r) {
+            tile.replicates[r].mean += n * totals[t][r].mean;
+            tile.replicates[r].variance += (n - 1) * totals[t][r].variance;
+            tile.replicates[r].relative_variance += (n - 1) * totals[t][r].relative_variance;
         }
-    mean_weight_ += n;
-    variance_weight_ += n - 1;
-    const double prepare = round.stage_seconds[static_cast<std::size_t>(StageKind::prepare)];
-    if (round.samples > 0)
-        times_.push_back({(round.seconds - prepare) / static_cast<double>(round.samples),
-                          prepare / static_cast<double>(std::max<std::size_t>(points_->figure_lit, 1))});
+        tile.mean_weight += n;
+        tile.variance_weight += n - 1;
+    }
+    times_.push_back(observed(costs));
+}
+
+void StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+{
+    std::vector<std::vector<ChunkTotals>> totals;
+    run_tiles(Allocation(tiles_.size(), count), 1, {}, totals, workspaces, executor);
+}
+
+namespace {
+
+double prepare_seconds(const TileTotals& t) { return t.stage_seconds[static_cast<std::size_t>(StageKind::prepare)]; }
+
+}  // namespace
+
+/// The mean over the points, not over the samples, which are more on some tiles than on others.
+TimeObservation StrategyRun::observed(std::span<const TileTotals> totals) const
+{
+    TimeObservation sum;
+    for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
+        const double points = points_->shading.tiles[t].count;
+        const double prepare = prepare_seconds(totals[t]);
+        sum.seconds_per_sample += points * (totals[t].seconds - prepare) / static_cast<double>(totals[t].samples);
+        sum.seconds_per_point += prepare;
+    }
+    const double lit = static_cast<double>(points_->figure_lit);
+    return {sum.seconds_per_sample / lit, sum.seconds_per_point / lit};
 }
 
 TimeObservation StrategyRun::try_out(int samples, std::size_t points, WorkspacePool<float>& workspaces) const
@@ -76,7 +97,7 @@ TimeObservation StrategyRun::try_out(int samples, std::size_t points, WorkspaceP
             tried += count;
         }
     });
-    const double prepare = totals.stage_seconds[static_cast<std::size_t>(StageKind::prepare)];
+    const double prepare = prepare_seconds(totals);
     return {(totals.seconds - prepare) / static_cast<double>(std::max<std::uint64_t>(totals.samples, 1)),
             prepare / static_cast<double>(std::max<std::size_t>(tried, 1))};
 }
@@ -97,31 +118,60 @@ StrategyMeasurements StrategyRun::measurements(std::span<const double> scale) co
     m.pooled.mean *= lit;  // dark points have mean and variance 0
     m.pooled.variance *= lit;
     m.pooled.relative_variance *= lit;
-
-    for (const ReplicateValues& sums : replicate_sums_)
-        m.replicates.push_back({sums.mean / mean_weight_, variance_weight_ > 0 ? sums.variance / variance_weight_ : 0,
-                                variance_weight_ > 0 ? sums.relative_variance / variance_weight_ : 0});
-    std::vector<double> region_points(points_->regions);
-    std::vector<std::size_t> region_first(points_->regions + 1, points_->figure_lit);
-    for (std::size_t t = points_->figure_tiles; t-- > 0;) {
-        region_points[points_->region_of(t)] += points_->shading.tiles[t].count;
-        region_first[points_->region_of(t)] = points_->shading.tiles[t].first;
+    m.region_participation.resize(points_->regions);
+    for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
+        const Tile& tile = points_->shading.tiles[t];
+        const Participation p = participation_of(figures.subspan(tile.first, tile.count));
+        m.region_participation[points_->region_of(t)].sum_d2 += p.sum_d2;
+        m.region_participation[points_->region_of(t)].sum_d4 += p.sum_d4;
     }
-    for (const std::vector<double>& sums : region_sums_) {
-        std::vector<double> means(points_->regions);
-        for (std::size_t g = 0; g < means.size(); ++g) means[g] = sums[g] / (mean_weight_ * region_points[g]);
-        m.region_means.push_back(std::move(means));
-    }
-    for (std::size_t g = 0; g < points_->regions; ++g)
-        m.region_participation.push_back(
-            participation_of(figures.subspan(region_first[g], region_first[g + 1] - region_first[g])));
-
-    m.times = times_;
-    for (std::size_t k = 0; k < stage_names.size(); ++k)
-        if (totals_.stage_seconds[k] > 0) m.stage_seconds[std::string(stage_names[k])] = totals_.stage_seconds[k];
-    m.rays = totals_.shadow_rays;
-    m.invalid_samples = totals_.invalid;
+    add_replicates(m);
+    add_costs(m);
     return m;
+}
+
+/// Means over the points, tile by tile: a tile that has more samples does not count more.
+void StrategyRun::add_replicates(StrategyMeasurements& m) const
+{
+    if (points_->figure_tiles == 0) return;
+    const double points = static_cast<double>(std::max<std::size_t>(points_->figure_points, 1));
+    std::vector<double> region_points(points_->regions);
+    for (std::size_t t = 0; t < points_->figure_tiles; ++t)
+        region_points[points_->region_of(t)] += points_->shading.tiles[t].count;
+    for (std::size_t r = 0; r < tiles_.front().replicates.size(); ++r) {
+        ReplicateValues values;
+        std::vector<double> region_means(points_->regions);
+        for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
+            const TileSums& tile = tiles_[t];
+            const double mean = tile.replicates[r].mean / tile.mean_weight;
+            const double per_degree = tile.variance_weight > 0 ? 1 / (tile.variance_weight * points) : 0;
+            values.mean += mean / points;
+            values.variance += tile.replicates[r].variance * per_degree;
+            values.relative_variance += tile.replicates[r].relative_variance * per_degree;
+            region_means[points_->region_of(t)] += mean / region_points[points_->region_of(t)];
+        }
+        m.replicates.push_back(values);
+        m.region_means.push_back(std::move(region_means));
+    }
+}
+
+/// Per sample, in the mean over the points; times all samples, as the report divides by them.
+void StrategyRun::add_costs(StrategyMeasurements& m) const
+{
+    m.times = times_;
+    double rays = 0;
+    for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
+        const TileTotals& cost = tiles_[t].cost;
+        m.invalid_samples += cost.invalid;
+        if (cost.samples == 0) continue;
+        const double share = static_cast<double>(points_->shading.tiles[t].count) /
+                             static_cast<double>(points_->figure_lit) * static_cast<double>(samples_) /
+                             static_cast<double>(cost.samples);
+        rays += share * static_cast<double>(cost.shadow_rays);
+        for (std::size_t k = 0; k < stage_names.size(); ++k)
+            if (cost.stage_seconds[k] > 0) m.stage_seconds[std::string(stage_names[k])] += share * cost.stage_seconds[k];
+    }
+    m.rays = static_cast<std::uint64_t>(std::llround(rays));
 }
 
 }  // namespace mis

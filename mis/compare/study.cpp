@@ -77,7 +77,7 @@ private:
         }
         choose_by_cost();
         if (is_stopped()) return;
-        make_weights();
+        make_pilot();
         run_audit();
     }
 
@@ -116,22 +116,74 @@ private:
 
     double tried_out(const StrategyRun& run)
     {
-        TimeObservation cost = run.try_out(1, 4, workspaces_);
-        if (cost.seconds_per_sample < 1e-4) cost = run.try_out(8, 32, workspaces_);
+        TimeObservation cost = run.try_out(1, 4, workspaces_);  // the first touch of memory is no cost of the strategy
+        if (cost.seconds_per_sample < 1e-3) cost = run.try_out(8, 32, workspaces_);
         return static_cast<double>(points()) * (first_samples() * cost.seconds_per_sample + cost.seconds_per_point);
     }
 
-    /// 1/(μ² + ε²) from a rough picture, for the replicates' relative variances.
-    void make_weights()
+    /// A rough picture of the scene, from samples that count for nothing else: weights for the replicates' relative
+    /// variances and, where time is the limit, how the samples are best spread over the tiles.
+    void make_pilot()
     {
+        constexpr int pilot_samples = 8;
+        std::vector<double> benefit(study_.points->figure_tiles);
         const bool is_small = static_cast<double>(scene_.scene().lights.size()) * static_cast<double>(points()) < 1e8;
         const Strategy rough = parse_strategy(is_small ? "radiant-solid-angle/power" : "power/power");
         StrategyRun pilot(scene_, *study_.points, rough, ~options_.seed);
-        pilot.sample(8, 1, false, {}, workspaces_, executor_);
+        pilot.sample_apart(pilot_samples, workspaces_, executor_);
         std::vector<double> means;
         for (const PointResult& result : pilot.results()) means.push_back(result.luminance.mean);
         weights_ = scale_of(means);
         for (double& w : weights_) w = w > 0 ? 1 / w : 0;
+        tile_factors_.assign(study_.points->shading.tiles.size(), 1);
+        if (options_.spp) return;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            if (study_.runs[s] && estimates_[s] < 0.05 * budget() * executor_.threads && !is_stopped()) {
+                StrategyRun one(scene_, *study_.points, strategies_[s], ~options_.seed);
+                one.sample_apart(pilot_samples, workspaces_, executor_);
+                add_benefit(benefit, one);
+            }
+        spread_over_tiles(benefit);
+    }
+
+    /// What a tile adds to the squared relative error of a strategy's variance, per sample: Σ μ4 over V².
+    void add_benefit(std::vector<double>& benefit, const StrategyRun& run) const
+    {
+        std::vector<double> fourth(benefit.size());
+        double variance = 0;
+        for (std::size_t t = 0; t < benefit.size(); ++t) {
+            const Tile& tile = study_.points->shading.tiles[t];
+            for (const PointResult& result : run.results().subspan(tile.first, tile.count)) {
+                variance += result.luminance.variance();
+                fourth[t] += result.luminance.m4;
+            }
+        }
+        if (!(variance > 0)) return;
+        for (std::size_t t = 0; t < benefit.size(); ++t) benefit[t] += fourth[t] / (variance * variance);
+    }
+
+    /// Samples in proportion to √(benefit per point), between half and eight times the mean: stratified sampling
+    /// (Neyman 1934). The pilot's samples count for nothing else, so no figure is biased by it.
+    void spread_over_tiles(const std::vector<double>& benefit)
+    {
+        double mean = 0;
+        std::vector<double> wanted(benefit.size());
+        for (std::size_t t = 0; t < benefit.size(); ++t) {
+            const double count = study_.points->shading.tiles[t].count;
+            wanted[t] = std::sqrt(benefit[t] / count);
+            mean += wanted[t] * count / static_cast<double>(points());
+        }
+        if (!(mean > 0)) return;
+        for (std::size_t t = 0; t < benefit.size(); ++t) tile_factors_[t] = std::clamp(wanted[t] / mean, 0.5, 8.0);
+    }
+
+    /// `chunk` samples per replicate in the mean, at least two.
+    Allocation allocation_of(int chunk) const
+    {
+        Allocation allocation;
+        for (const double factor : tile_factors_)
+            allocation.push_back(options_.spp ? chunk : std::max(2, static_cast<int>(std::lround(factor * chunk))));
+        return allocation;
     }
 
     /// μ² + ε² of every point; ε is 1 % of the mean over the figures' points, 0 without a camera.
@@ -175,12 +227,13 @@ private:
     /// One round: every strategy in turn, in random order. False: stopped before the first strategy.
     void round(int chunk)
     {
+        const Allocation allocation = allocation_of(chunk);
         const std::vector<std::size_t> order = round_order(strategies_.size(), options_.seed, rounds_++);
         std::size_t done = 0;
         for (const std::size_t s : order) {
             if (is_stopped()) return;
             if (study_.runs[s])
-                study_.runs[s]->sample(chunk, plan_.replicates, true, weights_, workspaces_, executor_);
+                study_.runs[s]->sample_round(allocation, plan_.replicates, weights_, workspaces_, executor_);
             show_progress(static_cast<double>(++done) / static_cast<double>(order.size()));
         }
     }
@@ -203,7 +256,7 @@ private:
         }
         if (plan_.remainder > 0)
             for (auto& run : study_.runs)
-                if (run && !is_stopped()) run->sample(plan_.remainder, 1, false, weights_, workspaces_, executor_);
+                if (run && !is_stopped()) run->sample_apart(plan_.remainder, workspaces_, executor_);
     }
 
     void run_time()
@@ -245,7 +298,7 @@ private:
         std::vector<double> sums(study_.points->shading.points.size());
         double weights = 0;
         for (const auto& run : study_.runs) {
-            if (!run || run->samples_per_point() == 0) continue;
+            if (!run || run->samples() == 0) continue;
             double variance = 0, mean = 0;
             for (const PointResult& result : run->results()) {
                 if (result.luminance.count > 1) variance += result.luminance.variance();
@@ -253,7 +306,7 @@ private:
             }
             const double n = std::max<double>(1, static_cast<double>(run->results().size()));
             const double floor = 1e-12 * (mean / n) * (mean / n) + 1e-300;
-            const double weight = static_cast<double>(run->samples_per_point()) / (variance / n + floor);
+            const double weight = static_cast<double>(run->samples()) / (variance / n + floor);
             weights += weight;
             for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += weight * run->results()[p].luminance.mean;
         }
@@ -329,7 +382,7 @@ private:
     std::uint32_t rounds_ = 0;
     int look_ = 0;
     std::vector<std::string> reasons_;
-    std::vector<double> estimates_, weights_;
+    std::vector<double> estimates_, weights_, tile_factors_;
     std::vector<std::size_t> audited_;
     std::vector<AuditEstimate> audit_;
 };

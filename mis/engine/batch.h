@@ -63,6 +63,7 @@ template <class T> struct Batch {
     alignas(64) Column<std::int32_t> light;     ///< or no_light
     alignas(64) Column<std::uint64_t> bits;     ///< of the choice
     alignas(64) Column<T> u, v, lobe;           ///< in [0, 1)
+    VecColumn<T> x;                             ///< relative to the job's origin; for screening alone
     VecColumn<T> n;                             ///< shading normal
     VecColumn<T> wo;                            ///< in the shading frame
     VecColumn<T> wi;                            ///< in scene axes
@@ -70,6 +71,8 @@ template <class T> struct Batch {
     VecColumn<T> to_center;                     ///< from x to the light's centre
     alignas(64) Column<T> radius, gap2;         ///< of the light; d² − r²
     alignas(64) Column<T> distance;             ///< along wi to the light
+    alignas(64) Column<T> light_number;         ///< `light` as a T, for screening
+    alignas(64) Column<T> candidate;            ///< 1 where screening cannot rule out another light, else 0
     alignas(64) Column<T> probability;          ///< P(j | point)
     alignas(64) Column<T> light_pdf, bsdf_pdf;  ///< P · pdf of the light technique; pdf of the other, per steradian
     VecColumn<T> radiance;                      ///< what arrives: over the pdf of the cap for a light draw; see stages

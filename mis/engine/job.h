@@ -8,6 +8,9 @@
 
 namespace mis {
 
+/// Up to so many lights, all are screened by lanes of samples before the hierarchy is asked.
+inline constexpr std::size_t most_screened_lights = 32;
+
 /// What the stages of one tile read. Plain values and references; nothing here changes while a tile runs.
 template <class T> struct TileJob {
     std::span<const ShadingPoint> points;      ///< of the tile
@@ -15,7 +18,7 @@ template <class T> struct TileJob {
     const LightHierarchy* hierarchy = nullptr;
     const SurfaceTracer* surfaces = nullptr;   ///< nullptr where none can occlude
     Vec3<double> origin{0};                    ///< of the columns
-    LightColumns<T> columns;                   ///< for policies that look at the point
+    LightColumns<T> columns;                   ///< for policies that look at the point, and for screening
     const void* policy = nullptr;              ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
     std::uint64_t seed = 1;

@@ -5,6 +5,8 @@
 #include "mis/bsdf/registry.h"
 #include "mis/engine/stages_bsdf.h"
 #include "mis/engine/stages_light.h"
+#include "mis/engine/stages_numbers.h"
+#include "mis/engine/stages_screen.h"
 #include "mis/heuristic/registry.h"
 #include "mis/policy/registry.h"
 #include "mis/technique/registry.h"
@@ -60,6 +62,8 @@ template <class T> Kernels<T> make_kernels()
     kernels.lanes = lane_count<V>;
     kernels.light_numbers = light_numbers<T>;
     kernels.bsdf_numbers = bsdf_numbers<T>;
+    kernels.screen_meeting = screen_meeting<V, T>;
+    kernels.screen_hiding = screen_hiding<V, T>;
     kernels.weigh_alone = weigh_alone<V, T>;
     for_each_type(Policies{}, [&]<class P>() {
         using Table = TableOf<P, V, T>;

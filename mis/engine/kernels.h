@@ -50,6 +50,8 @@ template <class T> struct Kernels {
     std::string_view instruction_set;
     std::size_t lanes;
     Stage<T> light_numbers, bsdf_numbers;
+    Stage<T> screen_meeting;  ///< wi → candidate: could wi meet any light?
+    Stage<T> screen_hiding;   ///< wi, light, distance → candidate: could another light stand before it?
     Stage<T> weigh_alone;  ///< contribution = f cos θ · L/pdf
     std::vector<PolicyStages<T>> policies;
     std::vector<LightTechniqueStages<T>> light_techniques;

@@ -45,8 +45,10 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
     if (technique.sums_lights && effects.light_occlusion) stages.push_back({StageKind::meet, policy.sum_light_draw});
     stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
     stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_light});
-    if (!technique.sums_lights && effects.light_occlusion)
+    if (!technique.sums_lights && effects.light_occlusion) {
+        if (effects.lights <= most_screened_lights) stages.push_back({StageKind::light_occlusion, kernels.screen_hiding});
         stages.push_back({StageKind::light_occlusion, hide_by_lights<T>});
+    }
     add_ending(stages, effects);
     return stages;
 }
@@ -62,6 +64,7 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_bsdf_rows<T>});
     stages.push_back({StageKind::numbers, kernels.bsdf_numbers});
     stages.push_back({StageKind::draw, direction(kernels, "brdf", bsdf).draw});
+    if (effects.lights <= most_screened_lights) stages.push_back({StageKind::meet, kernels.screen_meeting});
     stages.push_back({StageKind::meet, meet_lights<T>});
     stages.push_back({StageKind::choose, policy.probability});
     stages.push_back({StageKind::draw, technique.pdf});
@@ -80,12 +83,13 @@ std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Stra
     const DirectionStages<T>& draw = direction(kernels, s.technique, bsdf);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>},
                                       {StageKind::numbers, kernels.bsdf_numbers},
-                                      {StageKind::draw, draw.draw},
-                                      {StageKind::meet, meet_lights<T>},
-                                      {StageKind::draw, fetch_radiance<T>},
-                                      {StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate},
-                                      {StageKind::bsdf, draw.pdf},
-                                      {StageKind::weigh, kernels.weigh_alone}};
+                                      {StageKind::draw, draw.draw}};
+    if (effects.lights <= most_screened_lights) stages.push_back({StageKind::meet, kernels.screen_meeting});
+    stages.push_back({StageKind::meet, meet_lights<T>});
+    stages.push_back({StageKind::draw, fetch_radiance<T>});
+    stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
+    stages.push_back({StageKind::bsdf, draw.pdf});
+    stages.push_back({StageKind::weigh, kernels.weigh_alone});
     add_ending(stages, effects);
     return stages;
 }

@@ -1,26 +1,11 @@
 #pragma once
 
 #include "mis/engine/rows.h"
-#include "mis/sampling/random.h"
 
 namespace mis {
 inline namespace MIS_ISA {
 
 // The BSDF: evaluated for both halves, drawn from in its own.
-
-/// The random numbers of one draw of every row: lobe, u, v.
-template <class T> void bsdf_numbers(const TileJob<T>& job, Batch<T>& batch)
-{
-    for (int row = 0; row < batch.rows; ++row) {
-        const auto i = static_cast<std::size_t>(row);
-        const auto slot = static_cast<std::size_t>(batch.slot[i]);
-        const Words words = random_words(
-            job.seed, {shading_point(job, batch, row).id, batch.sample_number[slot], batch.draw}, Block::bsdf);
-        batch.lobe[i] = unit_number<T>(words[1]);
-        batch.u[i] = unit_number<T>(words[2]);
-        batch.v[i] = unit_number<T>(words[3]);
-    }
-}
 
 /// wi → contribution (f cos θ) and bsdf_pdf; both 0 below the horizon.
 template <class V, class B, class T> void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)

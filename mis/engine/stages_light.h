@@ -1,27 +1,12 @@
 #pragma once
 
 #include "mis/engine/rows.h"
-#include "mis/sampling/random.h"
 #include "mis/technique/technique.h"
 
 namespace mis {
 inline namespace MIS_ISA {
 
 // The light half: numbers → choose → draw in the cap → BSDF → weigh → occlusion → add. V is the lanes' type, T its number.
-
-/// The random numbers of one draw of every row: bits, u, v.
-template <class T> void light_numbers(const TileJob<T>& job, Batch<T>& batch)
-{
-    for (int row = 0; row < batch.rows; ++row) {
-        const auto i = static_cast<std::size_t>(row);
-        const auto slot = static_cast<std::size_t>(batch.slot[i]);
-        const Words words = random_words(
-            job.seed, {shading_point(job, batch, row).id, batch.sample_number[slot], batch.draw}, Block::light);
-        batch.bits[i] = choice_bits(words);
-        batch.u[i] = unit_number<T>(words[2]);
-        batch.v[i] = unit_number<T>(words[3]);
-    }
-}
 
 /// bits → light, probability. Reads the tables that prepare left.
 template <class Policy, class Table, class T> void choose_light(const TileJob<T>& job, Batch<T>& batch)

@@ -12,7 +12,7 @@ template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
 {
     batch.rows = batch.samples;
     std::int32_t last_point = -1;
-    Vec3<T> n{0, 0, 1}, wo{0, 0, 1};
+    Vec3<T> x{0, 0, 0}, n{0, 0, 1}, wo{0, 0, 1};
     for (int row = 0; row < batch.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
         batch.slot[i] = row;
@@ -20,15 +20,18 @@ template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
         if (batch.point[i] != last_point) {  // the samples of a point stand together
             last_point = batch.point[i];
             const ShadingPoint& point = shading_point(job, batch, row);
+            x = vec_cast<T>(point.x - job.origin);
             n = vec_cast<T>(point.n);
             wo = frame_around(n).to_local(vec_cast<T>(point.wo));
         }
+        batch.x.put(row, x);
         batch.n.put(row, n);
         batch.wo.put(row, wo);
     }
     const int padded = std::min((batch.rows + 15) / 16 * 16, batch_capacity);
     for (int row = batch.rows; row < padded; ++row) {
         const auto i = static_cast<std::size_t>(row);
+        batch.x.put(row, {0, 0, 0});
         batch.n.put(row, {0, 0, 1});
         batch.wo.put(row, {0, 0, 1});
         batch.wi.put(row, {0, 0, 1});
@@ -50,6 +53,7 @@ template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
             batch.point[to] = batch.point[from];
             batch.light[to] = batch.light[from];
             batch.distance[to] = batch.distance[from];
+            batch.x.put(kept, batch.x.at(row));
             batch.n.put(kept, batch.n.at(row));
             batch.wo.put(kept, batch.wo.at(row));
             batch.wi.put(kept, batch.wi.at(row));
@@ -82,9 +86,10 @@ template <class T> void keep_bsdf_rows(const TileJob<T>& job, Batch<T>& batch)
 
 template <class T> void meet_lights(const TileJob<T>& job, Batch<T>& batch)
 {
+    const bool is_screened = job.lights->size() <= most_screened_lights;
     keep_rows(batch, [&](int row) {
-        if (is_zero(batch.wi, row)) return false;
         const auto i = static_cast<std::size_t>(row);
+        if (is_zero(batch.wi, row) || (is_screened && batch.candidate[i] == 0)) return false;
         const LightHit hit = job.hierarchy->nearest(shading_point(job, batch, row).x, vec_cast<double>(batch.wi.at(row)));
         batch.light[i] = hit.light;
         batch.distance[i] = static_cast<T>(hit.distance);
@@ -102,8 +107,10 @@ template <class T> void fetch_radiance(const TileJob<T>& job, Batch<T>& batch)
 
 template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
 {
+    const bool is_screened = job.lights->size() <= most_screened_lights;
     for (int row = 0; row < batch.rows; ++row) {
         if (is_zero(batch.contribution, row)) continue;
+        if (is_screened && batch.candidate[static_cast<std::size_t>(row)] == 0) continue;
         const LightIndex j = batch.light[static_cast<std::size_t>(row)];
         const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
         const Vec3<double> x = shading_point(job, batch, row).x;

@@ -151,7 +151,8 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     const std::uint64_t start_ticks = ticks();
     if (!scratch_ || scratch_->size() < pipeline.table_bytes)
         scratch_ = std::make_unique<Scratch>(std::max(scratch_bytes, pipeline.table_bytes));
-    if (pipeline.looks_at_point) job.columns = fill_light_columns(*job.lights, job.origin, columns_);
+    if (pipeline.looks_at_point || job.lights->size() <= most_screened_lights)
+        job.columns = fill_light_columns(*job.lights, job.origin, columns_);
     batch_->samples = 0;
     batch_->points = 0;
     batch_->invalid = batch_->shadow_rays = 0;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -32,6 +33,19 @@ std::string_view take_until(char separator, std::string_view& rest)
     const std::string_view taken = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     return taken;
+}
+
+using Fields = std::array<std::string_view, column_count>;
+
+/// The number of fields of a row; those that fit go to `fields`.
+std::size_t split(std::string_view row, Fields& fields)
+{
+    for (std::size_t count = 1;; ++count) {
+        const std::size_t end = row.find(',');
+        if (count <= fields.size()) fields[count - 1] = row.substr(0, end);
+        if (end == row.npos) return count;
+        row.remove_prefix(end + 1);
+    }
 }
 
 /// Reads one table, line by line.
@@ -107,13 +121,14 @@ private:
     Light read_light()
     {
         const std::string_view row = next_line();
-        const auto separators = static_cast<std::size_t>(std::count(row.begin(), row.end(), ','));
-        if (separators + 1 != column_count)
-            fail("", trimmed(row).empty() ? "an empty line" : fmt::format("{} fields", separators + 1),
+        Fields fields;
+        const std::size_t count = split(row, fields);
+        if (count != column_count)
+            fail("", trimmed(row).empty() ? "an empty line" : fmt::format("{} fields", count),
                  fmt::format("a row has {} fields, as the header has", column_count), "Mend or remove the line.");
         std::array<double, column_count> values;
-        std::string_view rest = row;
-        for (const std::size_t column : order_) values[column] = read_number(take_until(',', rest), scene_keys::columns[column]);
+        for (std::size_t i = 0; i < column_count; ++i)
+            values[order_[i]] = read_number(fields[i], scene_keys::columns[order_[i]]);
         const auto& [x, y, z, radius, r, g, b] = values;
         if (const std::optional<Problem> problem = find_light_problem({x, y, z}, radius, Emission::radiance, {r, g, b})) {
             const std::string_view column = problem->pointer == "/radius" ? "radius" : problem->pointer == "/center" ? "x, y, z" : "r, g, b";

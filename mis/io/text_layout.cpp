@@ -116,7 +116,11 @@ std::string TextTable::line(const std::vector<std::string>& cells,
 std::string TextTable::text() const
 {
     const std::vector<std::size_t> columns = widths();
-    const std::vector<std::size_t> of_remark{columns[0], columns[1]};
+    std::size_t longest = 0;
+    for (const auto& row : rows_)
+        if (row.size() == 3) longest = std::max(longest, width_of(row[2]));
+    const std::size_t room = text_columns - std::min(text_columns, columns[0] + 2 + longest);
+    const std::vector<std::size_t> of_remark{columns[0], std::min(columns[1], room)};
     std::string text;
     for (const auto& head : heads_) text += line(head, columns);
     for (const auto& row : rows_) text += line(row, row.size() == 3 ? of_remark : columns);

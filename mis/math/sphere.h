@@ -23,4 +23,10 @@ template <class T> MIS_INLINE T hit_distance(const Vec3<T>& to_center, const T& 
     return select(q <= radius, select(along > number<T>(0), select(d > radius, distance, miss), miss), miss);
 }
 
+/// Does a ray along the unit direction wi meet that sphere? The question hit_distance answers first, without a root.
+template <class T> MIS_INLINE auto meets_sphere(const Vec3<T>& to_center, const T& radius, const Vec3<T>& wi)
+{
+    return (length2(cross(to_center, wi)) <= radius * radius) & (dot(to_center, wi) > number<T>(0));
+}
+
 }  // namespace mis

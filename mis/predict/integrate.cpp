@@ -1,7 +1,8 @@
 #include "mis/predict/integrate.h"
 
+#include "mis/predict/crossings.h"
+
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 
 namespace mis {
@@ -17,11 +18,12 @@ public:
         : patch_(patch), evaluator_(evaluator), group_(group), effort_(effort), size_(size),
           total_{std::vector<double>(size), std::vector<double>(size)}
     {
+        for (const double jump : group.jumps) levels_.push_back(std::log(jump));
     }
 
     Integrals run()
     {
-        const std::vector<double> azimuths = patch_.azimuths();
+        const std::vector<double> azimuths = group_.jumps.empty() ? patch_.azimuths() : cut_by_jumps(patch_.azimuths());
         for (std::size_t i = 0; i + 1 < azimuths.size(); ++i)
             around(azimuths[i], azimuths[i + 1], -1, 1, 0);
         return std::move(total_);
@@ -106,45 +108,51 @@ private:
     /// The same, cut where the ratio of the densities crosses a jump of the weights.
     void along_pieces(const Stretch& stretch)
     {
-        const std::vector<double> cuts = crossings(stretch);
+        const auto ratio = [&](double theta) { return log_ratio(meridian_, stretch, theta); };
         double begin = stretch.begin;
-        for (const double cut : cuts) {
+        for (const double cut : crossings(ratio, looking_points(stretch.begin, stretch.end, 24), levels_)) {
+            const double rounding = 1e-13 * (stretch.end - stretch.begin);
+            if (cut - begin < rounding || stretch.end - cut < rounding) continue;
             along_stretch(stretch, begin, cut, 0);
             begin = cut;
         }
         along_stretch(stretch, begin, stretch.end, 0);
     }
 
-    std::vector<double> crossings(const Stretch& stretch)
+    double log_ratio(const Meridian& meridian, const Stretch& stretch, double theta) const
     {
-        const auto log_ratio = [&](double theta) {
-            return std::log(evaluator_.ratio(meridian_.around, theta, stretch, meridian_));
+        return std::log(evaluator_.ratio(meridian.around, theta, stretch, meridian));
+    }
+
+    /// Adds the azimuths at which a curve of equal ratio leaves a stretch through one of its ends.
+    std::vector<double> cut_by_jumps(const std::vector<double>& azimuths)
+    {
+        std::vector<double> cut{azimuths.front()};
+        const auto add = [&](double phi) {
+            if (phi - cut.back() > 1e-14) cut.push_back(phi);
         };
-        constexpr int steps = 24;
-        const double length = stretch.end - stretch.begin;
-        // Denser towards both ends, where lobes have their peaks.
-        const auto theta_of = [&](int i) {
-            const double s = std::sin(pi<double> / 2 * i / steps);
-            return i == steps ? stretch.end - 1e-12 * length : stretch.begin + length * (1e-12 + s * s * (1 - 2e-12));
-        };
-        std::vector<double> cuts;
-        double theta = theta_of(0), value = log_ratio(theta);
-        for (int i = 1; i <= steps; ++i) {
-            const double next = theta_of(i), next_value = log_ratio(next);
-            for (const double jump : group_.jumps) {
-                const double level = std::log(jump);
-                if (!(std::isfinite(value) && std::isfinite(next_value)) || (value < level) == (next_value < level)) continue;
-                std::uintmax_t rounds = 60;
-                const auto [below, above] = boost::math::tools::toms748_solve(
-                    [&](double t) { return log_ratio(t) - level; }, theta, next, value - level, next_value - level,
-                    boost::math::tools::eps_tolerance<double>(46), rounds);
-                const double cut = (below + above) / 2;
-                if (cut - stretch.begin > 1e-13 * length && stretch.end - cut > 1e-13 * length) cuts.push_back(cut);
+        for (std::size_t i = 0; i + 1 < azimuths.size(); ++i) {
+            const double begin = azimuths[i], end = azimuths[i + 1];
+            Meridian meridian;
+            patch_.meridian((begin + end) / 2, meridian);
+            const std::size_t stretches = meridian.stretches.size();
+            std::vector<double> found;
+            for (std::size_t k = 0; k < 2 * stretches; ++k) {
+                const auto ratio_at_end = [&](double phi) {
+                    patch_.meridian(phi, meridian);
+                    if (meridian.stretches.size() != stretches) return std::nan("");
+                    const Stretch& stretch = meridian.stretches[k / 2];
+                    return log_ratio(meridian, stretch, k % 2 == 0 ? stretch.begin : stretch.end);
+                };
+                const std::vector<double> more = crossings(ratio_at_end, looking_points(begin, end, 16), levels_);
+                found.insert(found.end(), more.begin(), more.end());
             }
-            theta = next, value = next_value;
+            std::sort(found.begin(), found.end());
+            for (const double phi : found)
+                if (end - phi > 1e-14) add(phi);
+            add(end);
         }
-        std::sort(cuts.begin(), cuts.end());
-        return cuts;
+        return cut;
     }
 
     const Patch& patch_;
@@ -153,6 +161,7 @@ private:
     const Effort& effort_;
     std::size_t size_;
     Integrals total_;
+    std::vector<double> levels_;  ///< of the log ratio
     std::size_t meridians_ = 0;
     Meridian meridian_;
     Nodes nodes_;

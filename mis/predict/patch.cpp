@@ -1,6 +1,6 @@
 #include "mis/predict/patch.h"
 
-#include "mis/trace/intersect.h"
+#include "mis/predict/crossings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +33,36 @@ void add_roots(double oo, double oe, double ee, std::vector<double>& angles)
     for (const double angle : {std::atan2(s, ee), std::atan2(oo, s)}) {  // of tan θ = s/ee and oo/s
         angles.push_back(angle < 0 ? angle + pi<double> : angle);
     }
+}
+
+/// What a meridian meets, in order: the nearest light of each stretch and all along it.
+std::vector<int> things_of(const Meridian& meridian)
+{
+    std::vector<int> things;
+    for (const Stretch& stretch : meridian.stretches) {
+        things.push_back(-1 - stretch.nearest);
+        for (std::size_t a = 0; a < stretch.along; ++a) things.push_back(meridian.along[stretch.first_along + a]);
+    }
+    return things;
+}
+
+/// Directions from the origin to the points where the surfaces of two spheres meet just where one of them ends for the
+/// eye: the curve of equal distance starts there. `ends`: the one that ends.
+std::array<Vec3<double>, 2> rims_in_common(const Ball& ends, const Ball& other)
+{
+    // On the polar plane of the origin, p·c = d² − r², the plane of both spheres, p·m = h, and the sphere.
+    const Vec3<double> m = (other.to_center - ends.to_center) * 2.0;
+    const double gap = ends.cap.gap2, h = other.cap.gap2 - gap;
+    const Vec3<double> along = cross(ends.to_center, m);
+    const double size2 = length2(along);
+    const Vec3<double> none(std::numeric_limits<double>::quiet_NaN());
+    if (!(size2 > 0)) return {none, none};
+    const Vec3<double> foot = (cross(m, along) * gap + cross(along, ends.to_center) * h) / size2;
+    const Vec3<double> away = foot - ends.to_center;
+    const double b = dot(along, away) / size2, c = (length2(away) - ends.radius * ends.radius) / size2;
+    if (!(b * b - c >= 0)) return {none, none};
+    const double root = std::sqrt(b * b - c);
+    return {normalized(foot + along * (root - b)), normalized(foot - along * (root + b))};
 }
 
 }  // namespace
@@ -84,6 +114,43 @@ void Patch::add_pairs()
 
 std::vector<double> Patch::azimuths() const
 {
+    std::vector<double> breaks = known_azimuths();
+    if (interlocked_.empty()) return breaks;
+    std::vector<double> all;
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+        all.push_back(breaks[i]);
+        add_changes(breaks[i], breaks[i + 1], all);
+    }
+    all.push_back(breaks.back());
+    return all;
+}
+
+/// Where interlocked spheres make a meridian meet other things than its neighbour does: found by halving.
+void Patch::add_changes(double begin, double end, std::vector<double>& azimuths) const
+{
+    Meridian meridian;
+    const auto things_at = [&](double phi) {
+        this->meridian(phi, meridian);
+        return things_of(meridian);
+    };
+    const std::vector<double> phis = looking_points(begin, end, 24);
+    auto before = things_at(phis.front());
+    for (std::size_t i = 1; i < phis.size(); ++i) {
+        const auto after = things_at(phis[i]);
+        double low = phis[i - 1], high = phis[i];
+        for (auto last = after; before != last && high - low > 1e-14;) {
+            const double middle = (low + high) / 2;
+            const auto there = things_at(middle);
+            if (there == before) low = middle;
+            else high = middle, last = there;
+        }
+        if (before != after && low - azimuths.back() > 1e-13 && end - high > 1e-13) azimuths.push_back((low + high) / 2);
+        before = after;
+    }
+}
+
+std::vector<double> Patch::known_azimuths() const
+{
     std::vector<double> all;
     const auto add = [&](double phi) { all.push_back(std::remainder(phi, two_pi<double>)); };
     const auto add_point = [&](const PlanePoint& point) {
@@ -103,6 +170,15 @@ std::vector<double> Patch::azimuths() const
         for (std::size_t k = 0; k < i; ++k)
             for (const PlanePoint& point : common_points(circles_[i], circles_[k])) add_point(point);
     }
+    const auto add_direction = [&](const Vec3<double>& w) {
+        const double half_chord2 = length2(w - polar_.pole) / 4;
+        add_point({polar_.azimuth(w), std::sqrt(half_chord2 / (1 - half_chord2))});
+    };
+    for (const Vec3<double>& turn : lobe_.turns) add_direction(turn);
+    for (const auto& [first, second] : interlocked_)
+        for (const auto& [ends, other] : {std::array{first, second}, std::array{second, first}})
+            if (sky_->ball(ends).stands == Ball::Stands::apart)
+                for (const Vec3<double>& w : rims_in_common(sky_->ball(ends), sky_->ball(other))) add_direction(w);
     std::sort(all.begin(), all.end());
     std::vector<double> breaks;
     for (const double phi : all)

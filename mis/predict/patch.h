@@ -41,6 +41,8 @@ public:
 private:
     void add_circle(int ball);
     void add_pairs();
+    std::vector<double> known_azimuths() const;
+    void add_changes(double begin, double end, std::vector<double>& azimuths) const;
     double distance(int ball, const Vec3<double>& offset) const;
     void add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low, double high,
                     std::vector<double>& breaks) const;

@@ -20,7 +20,7 @@ struct Predicted {
 /// How far to go.
 struct PredictOptions {
     double tolerance = 1e-7;         ///< relative, of means and variances; 10 times that for fourth moments
-    double jump_tolerance = 1e-5;    ///< the same for strategies whose weights jump (`cutoff`, `maximum`)
+    double jump_tolerance = 1e-6;    ///< the same for strategies whose weights jump (`cutoff`, `maximum`)
 };
 
 /// A scene that quadrature cannot answer for. what() says why and what to do.

@@ -33,12 +33,17 @@ MIS_INLINE Words philox_round(const Words& c, std::uint32_t key0, std::uint32_t 
 }
 }  // namespace detail
 
-/// Four random words. Philox-4×32 with the seven rounds that pass BigCrush.
-/// Source: Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", table 2.
-MIS_INLINE Words random_words(std::uint64_t seed, const Counter& counter, Block block)
+/// The counter of a block, as the four words that are scrambled.
+MIS_INLINE Words counter_words(const Counter& counter, Block block)
 {
-    Words c{counter.point, static_cast<std::uint32_t>(counter.sample), counter.draw,
+    return {counter.point, static_cast<std::uint32_t>(counter.sample), counter.draw,
             static_cast<std::uint32_t>(counter.sample >> 32) << 1 | static_cast<std::uint32_t>(block)};
+}
+
+/// Philox-4×32 with the seven rounds that pass BigCrush.
+/// Source: Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", table 2.
+MIS_INLINE Words scrambled(std::uint64_t seed, Words c)
+{
     auto key0 = static_cast<std::uint32_t>(seed), key1 = static_cast<std::uint32_t>(seed >> 32);
     for (int round = 0; round < 7; ++round) {
         c = detail::philox_round(c, key0, key1);
@@ -46,6 +51,12 @@ MIS_INLINE Words random_words(std::uint64_t seed, const Counter& counter, Block 
         key1 += 0xBB67AE85u;
     }
     return c;
+}
+
+/// Four random words.
+MIS_INLINE Words random_words(std::uint64_t seed, const Counter& counter, Block block)
+{
+    return scrambled(seed, counter_words(counter, block));
 }
 
 /// A word as a number in [0, 1): 24 bits of it in float, all 32 in double.

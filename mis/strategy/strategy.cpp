@@ -187,16 +187,17 @@ Strategy parse_strategy(std::string_view name)
         if (s.heuristic == "light") s.counts = {1, 0};
         bool has_technique = false;
         for (std::size_t i = 2; i < parts.size(); ++i) {
-            if (parts[i] == "one-sample" && s.model == Model::multi) {
-                s.model = Model::one_sample;
-            } else if (find(technique_names(), parts[i]) != nullptr && !has_technique && s.model == Model::multi) {
-                s.technique = parts[i];
-                has_technique = true;
-            } else {
+            const bool is_technique = find(technique_names(), parts[i]) != nullptr;
+            if (!is_technique && parts[i] != "one-sample") {
                 std::vector<Choosable> allowed = technique_names();
                 allowed.push_back({"one-sample", ""});
                 refuse_unknown(name, "part", parts[i], allowed);
             }
+            if (is_technique && has_technique) refuse(name, "a strategy has one technique");
+            if (s.model == Model::one_sample)
+                refuse(name, is_technique ? "the technique stands before \"one-sample\"" : "\"one-sample\" stands there twice");
+            if (is_technique) s.technique = parts[i], has_technique = true;
+            else s.model = Model::one_sample;
         }
     }
     if (at != std::string_view::npos) s.counts = parse_counts(name, name.substr(at + 1));

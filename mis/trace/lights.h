@@ -113,7 +113,9 @@ void LightHierarchy::walk(const Vec3<double>& x, const Vec3<double>& wi, double 
             }
             for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
                 const Light& light = (*lights_)[static_cast<std::size_t>(order_[i])];
-                const double distance = hit_distance(light.center - x, light.radius, wi);
+                const Vec3<double> to_center = light.center - x;
+                if (!meets_sphere(to_center, light.radius, wi)) continue;
+                const double distance = hit_distance(to_center, light.radius, wi);
                 if (distance <= limit && distance < std::numeric_limits<double>::infinity()) {
                     limit = meet(LightHit{order_[i], distance});
                     box_limit = static_cast<float>(limit) * 1.000001F;

@@ -178,7 +178,7 @@ TEST(RandomLights, AreTheSameOnEveryMachine)
 TEST(RandomLights, HaveTheStatedDistributionsIndependently)
 {
     constexpr int count = 100'000;
-    constexpr double tolerance = 6 / std::sqrt(double(count));  // six standard errors of a correlation: 2e-9 each
+    const double tolerance = 6 / std::sqrt(double{count});  // six standard errors of a correlation: 2e-9 each
     const Scene scene = parsed(with_light(R"({"type":"random","count":100000,"seed":7,"box":[[-9,103,-9],[9,106,9]],"radius":[0.01,10],"power":[1e-3,1e3]})"));
     ASSERT_EQ(scene.lights.size(), std::size_t{count});
     // Each as a uniform number in [−√3, √3], of mean 0 and variance 1.

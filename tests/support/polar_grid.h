@@ -50,7 +50,7 @@ public:
                 // Two halves: the horizon's course through a sector is smooth, but bends.
                 Value& sum = result[ring * static_cast<std::size_t>(sectors_) + static_cast<std::size_t>(s)];
                 for (int half = 0; half < 2; ++half)
-                    sum += integral<10>((s + 0.5 * half) * step, (s + 0.5 * half + 0.5) * step, [&](double phi) {
+                    sum += integral<6>((s + 0.5 * half) * step, (s + 0.5 * half + 0.5) * step, [&](double phi) {
                         return along_meridian(angles_[ring], angles_[ring + 1], phi, f);
                     });
             }
@@ -76,7 +76,7 @@ private:
         const double a = std::max(low, peak - right + turn), b = std::min(high, peak + right + turn);
         std::decay_t<decltype(f(across))> none(0);
         if (!(a < b)) return none;
-        return integral<12>(a, b, [&](double theta) {
+        return integral<10>(a, b, [&](double theta) {
             return f(frame_.z * std::cos(theta) + across * std::sin(theta)) * std::sin(theta);
         });
     }

@@ -1,0 +1,172 @@
+// What is true of every policy of the registry.
+#include "mis/policy/light_choice.h"
+
+#include "mis/policy/registry.h"
+
+#include "tests/policy/prepared.h"
+#include "tests/support/lanes.h"
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+#include "tests/support/typed.h"
+#include "tests/support/uniforms.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace mis {
+namespace {
+
+const Vec3<double> x{0, 0, 0}, up{0, 1, 0};
+
+/// What rounds: an alias table keeps its probabilities as floats.
+constexpr double rounding = 2e-7;
+
+template <class P> class EveryPolicy : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        if (P::draws_every_light) GTEST_SKIP() << "it makes no choice";
+    }
+};
+TYPED_TEST_SUITE(EveryPolicy, TestedTypes<Policies>, RegisteredName);
+
+TYPED_TEST(EveryPolicy, DrawsEachLightAsOftenAsItSays)
+{
+    const int draws = scaled(1'000'000);
+    constexpr double false_alarm = 1e-6;  // per policy
+    const Lights lights = thirty_lights_one_dark();
+    const Prepared<TypeParam> table(lights, x, up);
+    std::vector<double> observed(lights.size()), expected = table.probabilities();
+    for (double& e : expected) e *= draws;
+    for (int i = 0; i < draws; ++i) {
+        const Choice choice = table.choose(random_bits(7, static_cast<std::uint64_t>(i)));
+        ASSERT_GE(choice.light, 0);
+        ASSERT_EQ(choice.probability, table.probability(static_cast<std::size_t>(choice.light)));
+        ++observed[static_cast<std::size_t>(choice.light)];
+    }
+    EXPECT_GT(chi2_p_value(observed, expected), false_alarm);
+}
+
+/// The twin: a probability that is told 10 % too large is seen by the same number of draws.
+TYPED_TEST(EveryPolicy, TheSameTestSeesAProbabilityThatIs10PercentOff)
+{
+    const int draws = scaled(1'000'000);
+    const Lights lights = thirty_lights_one_dark();
+    const Prepared<TypeParam> table(lights, x, up);
+    std::vector<double> observed(lights.size()), expected = table.probabilities();
+    *std::max_element(expected.begin(), expected.end()) *= sample_share < 1 ? 1.4 : 1.1;
+    for (double& e : expected) e *= draws;
+    for (int i = 0; i < draws; ++i) {
+        const LightIndex j = table.choose(random_bits(7, static_cast<std::uint64_t>(i))).light;
+        ASSERT_GE(j, 0);
+        ++observed[static_cast<std::size_t>(j)];
+    }
+    EXPECT_LT(chi2_p_value(observed, expected), 1e-6);
+}
+
+TYPED_TEST(EveryPolicy, ProbabilitiesSumTo1)
+{
+    const Lights lights = thirty_lights_one_dark();
+    EXPECT_NEAR((Prepared<TypeParam, double>(lights, x, up).sum()), 1, rounding);
+    EXPECT_NEAR((Prepared<TypeParam, float>(lights, x, up).sum()), 1, rounding);
+}
+
+/// What a policy may see is the light's solid angle, radiance and place over the horizon: no unit, axis or order.
+TYPED_TEST(EveryPolicy, DoesNotDependOnUnitsAxesPlaceOrOrder)
+{
+    const Lights lights = thirty_lights_one_dark();
+    const std::vector<double> usual = Prepared<TypeParam>(lights, x, up).probabilities();
+    const auto expect_usual = [&](const std::vector<double>& found, const char* what) {
+        for (std::size_t j = 0; j < usual.size(); ++j)
+            EXPECT_NEAR(found[j], usual[j], rounding * usual[j] + 1e-9 * rounding) << what << ", light " << j;
+    };
+    for (const double scale : {1e-6, 1e6}) {
+        Lights scaled_lights = lights;
+        for (Light& l : scaled_lights)
+            l.center *= scale, l.radius *= scale, l.radiance_radius *= static_cast<float>(scale);
+        expect_usual(Prepared<TypeParam>(scaled_lights, x, up).probabilities(), "scaled");
+    }
+    const Frame<double> turn = frame_around(normalized(Vec3<double>{1, 2, -2}));
+    Lights turned = lights, moved = lights, reversed(lights.rbegin(), lights.rend());
+    const Vec3<double> far(1e3, -1e3, 5e2);
+    for (Light& l : turned) l.center = turn.to_world(l.center);
+    for (Light& l : moved) l.center += far;
+    expect_usual(Prepared<TypeParam>(turned, x, turn.to_world(up)).probabilities(), "turned");
+    expect_usual(Prepared<TypeParam>(moved, far, up).probabilities(), "moved");
+    std::vector<double> backwards = Prepared<TypeParam>(reversed, x, up).probabilities();
+    std::reverse(backwards.begin(), backwards.end());
+    expect_usual(backwards, "reversed");
+}
+
+TYPED_TEST(EveryPolicy, OfBlackLightsAloneEitherSumsTo1OrDrawsNone)
+{
+    Lights lights = thirty_lights_one_dark();
+    for (Light& l : lights) l.radiance_radius = Vec3<float>(0);
+    const Prepared<TypeParam> table(lights, x, up);
+    if (table.sum() == 0) {
+        EXPECT_EQ(table.choose(random_bits(1, 1)).light, no_light);
+        EXPECT_EQ(table.choose(random_bits(1, 1)).probability, 0);
+    } else {
+        EXPECT_NEAR(table.sum(), 1, rounding);
+    }
+}
+
+TYPED_TEST(EveryPolicy, WithoutALightDrawsNone)
+{
+    const Prepared<TypeParam> table(Lights{}, x, up);
+    EXPECT_EQ(table.choose(random_bits(1, 1)).light, no_light);
+    EXPECT_EQ(table.choose(random_bits(1, 1)).probability, 0);
+}
+
+/// Above the horizon and not black: it can be drawn, even when outshone by 1e12 or outsized by 1e8.
+TYPED_TEST(EveryPolicy, ALightThatCanContributeHasAProbability)
+{
+    const Lights bright{make_light({0, 2, 0}, 0.1, Vec3<double>(1)), make_light({1, 2, 0}, 0.1, Vec3<double>(1e12))};
+    const Lights big{make_light({0, 2, 0}, 1e-8, Vec3<double>(1)), make_light({1, 2, 0}, 1, Vec3<double>(1))};
+    for (const Lights& lights : {bright, big}) {
+        const Prepared<TypeParam, float> table(lights, x, up);
+        EXPECT_GT(table.probability(0), 0);
+        EXPECT_NEAR(table.sum(), 1, rounding);
+    }
+}
+
+/// A radius whose square is no float, with the power of a lamp.
+TYPED_TEST(EveryPolicy, ARadiusOf1e20IsALightLikeAnyOther)
+{
+    const Lights lights{make_light_of_power({0, 2, 0}, 1e-20, Vec3<double>(5)),
+                        make_light_of_power({0, -1, 2}, 1e-20, Vec3<double>(5)),
+                        make_light_of_power({1, 2, 0}, 2e-20, Vec3<double>(5))};
+    const Prepared<TypeParam, float> in_float(lights, x, up);
+    const Prepared<TypeParam, double> in_double(lights, x, up);
+    EXPECT_NEAR(in_float.sum(), 1, rounding);
+    EXPECT_GT(in_float.probability(0), 0);
+    for (std::size_t j = 0; j < lights.size(); ++j) EXPECT_NEAR(in_float.probability(j), in_double.probability(j), 1e-6);
+}
+
+TYPED_TEST(EveryPolicy, FloatAndLanesAgreeWithDouble)
+{
+    const Lights lights = thirty_lights_one_dark();
+    const std::vector<double> exact = Prepared<TypeParam, double>(lights, x, up).probabilities();
+    const std::vector<double> one = Prepared<TypeParam, float>(lights, x, up).probabilities();
+    const std::vector<double> lanes = Prepared<TypeParam, TestLanes<float>>(lights, x, up).probabilities();
+    const std::vector<double> wide = Prepared<TypeParam, TestLanes<double>>(lights, x, up).probabilities();
+    for (std::size_t j = 0; j < lights.size(); ++j) {
+        EXPECT_NEAR(one[j], exact[j], 2e-6 * exact[j] + 1e-12) << j;
+        EXPECT_NEAR(lanes[j], exact[j], 2e-6 * exact[j] + 1e-12) << j;
+        EXPECT_NEAR(wide[j], exact[j], 1e-12 * exact[j] + 1e-20) << j;
+    }
+}
+
+/// The loop over lanes ends with a group that is not full, whatever the number of lights.
+TYPED_TEST(EveryPolicy, AnyNumberOfLightsFillsTheLanes)
+{
+    const Lights all = thirty_lights_one_dark();
+    for (std::size_t count = 1; count <= 19; ++count) {
+        const Lights lights(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+        EXPECT_NEAR((Prepared<TypeParam, TestLanes<float>>(lights, x, up).sum()), 1, rounding) << count;
+    }
+}
+
+}  // namespace
+}  // namespace mis
