@@ -58,8 +58,7 @@ void check_options(const CompareOptions& options)
     check(options.stop, 4);
     if (!(options.at > 0 && options.at <= 1e12))
         throw UsageError(fmt::format("--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
-    if (options.output.json == "-" && options.output.csv == "-")
-        throw UsageError("--json and --csv: found - for both; standard output takes one of them");
+    check(options.output);
 }
 
 void write_outputs(const CompareOptions& options, const Report& report)

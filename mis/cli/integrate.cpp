@@ -75,14 +75,6 @@ std::vector<Entry> entries_of(const IntegrateOptions& options)
     return entries;
 }
 
-/// What is wrong with a seed; empty if nothing is. Without it -1 would be taken for 2^64 - 1.
-std::string seed_fault(const std::string& text)
-{
-    constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-    if (number_in<std::uint64_t>(text)) return "";
-    return fmt::format("found \"{}\"; a seed is a whole number from 0 to {}", text, most);
-}
-
 /// What the file "-" leaves of standard output to people.
 class Console {
 public:

@@ -1,11 +1,13 @@
 #include "mis/cli/commands.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/scene_error.h"
+#include "mis/scene/nearest_name.h"
 #include "mis/strategy/names.h"
 #include "mis/strategy/strategy.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <new>
 
 namespace {
@@ -88,6 +90,20 @@ std::string typed(int argc, char** argv)
     return line;
 }
 
+/// Throws UsageError where the first word is no command.
+void check_command(const CLI::App& app, int argc, char** argv)
+{
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return;
+    const std::string_view near = mis::nearest_name(argv[1], known);
+    throw UsageError(fmt::format("found command \"{}\"; known are {}{}", argv[1], mis::comma_list(known),
+                                 near.empty() ? "" : fmt::format("\n    Did you mean \"{}\"?", near)));
+}
+
 int run(int argc, char** argv)
 {
     CLI::App app("mis ranks the ways to choose a light: direct lighting from spherical sources, by variance and by time.");
@@ -102,6 +118,7 @@ int run(int argc, char** argv)
     add_render(app, render);
     add_explain(app, explain);
     add_integrate(app, integrate);
+    check_command(app, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -5,18 +5,32 @@
 #include "mis/scene/validate.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <thread>
 
 namespace mis::cli {
 
+std::string seed_fault(const std::string& text)
+{
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error == std::errc{} && end == text.data() + text.size()) return "";
+    return fmt::format("found \"{}\"; a seed is a whole number from 0 to {}", text,
+                       std::numeric_limits<std::uint64_t>::max());
+}
+
 void add_run_options(CLI::App& command, RunOptions& options)
 {
     command.add_option("--threads", options.threads, "threads to run on (0: as many as the machine has)");
-    command.add_option("--seed", options.seed, "seed of the random numbers")->capture_default_str();
+    command.add_option("--seed", options.seed, "seed of the random numbers")
+        ->capture_default_str()
+        ->check(seed_fault);
     command.add_option("--resolution", options.resolution, "picture size WxH in place of the scene's");
     command.add_option("--effects", options.effects, "auto: only what the scene calls for; all: everything")
         ->capture_default_str();
@@ -30,6 +44,27 @@ void add_output_options(CLI::App& command, OutputOptions& options)
         ->type_name("FILE");
     command.add_option("--csv", options.csv, "write the figures as CSV to FILE, or - for standard output")
         ->type_name("FILE");
+}
+
+void check_output_file(const std::string& option, const std::string& file)
+{
+    namespace fs = std::filesystem;
+    if (file.empty() || file == "-") return;
+    std::error_code error;
+    if (fs::is_directory(file, error)) throw UsageError(option + ": found " + file + ", which is a folder; a file is needed");
+    if (fs::exists(file, error)) return;  // written beside and renamed, or a pipe
+    const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+    if (!fs::is_directory(folder, error)) throw UsageError(option + ": there is no folder " + folder.string());
+    if (access(folder.c_str(), W_OK) != 0)
+        throw UsageError(option + ": found " + folder.string() + ", a folder that cannot be written to");
+}
+
+void check(const OutputOptions& options)
+{
+    if (options.json == "-" && options.csv == "-")
+        throw UsageError("--json and --csv: found - for both; standard output takes one of them");
+    check_output_file("--json", options.json);
+    check_output_file("--csv", options.csv);
 }
 
 void add_stop_options(CLI::App& command, StopOptions& options)

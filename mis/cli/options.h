@@ -33,6 +33,9 @@ struct RunOptions {
     std::string command_line;
 };
 
+/// What is wrong with the text of a seed, or nothing; the parser's own conversion would wrap −1 around.
+std::string seed_fault(const std::string& text);
+
 /// --threads, --seed, --quiet, --resolution, --effects, --sampler.
 void add_run_options(CLI::App& command, RunOptions& options);
 
@@ -41,6 +44,10 @@ struct OutputOptions {
     std::string json, csv;  ///< a file, "-" for standard output, or empty
 };
 void add_output_options(CLI::App& command, OutputOptions& options);
+
+/// Throws UsageError where a file of that name could not be made: before a run whose figures would be lost.
+void check_output_file(const std::string& option, const std::string& file);
+void check(const OutputOptions& options);
 
 /// --spp, --time, --error: when to stop; at most one is given.
 struct StopOptions {

@@ -116,6 +116,7 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
 int run_render(const RenderOptions& options)
 {
     check(options.stop, 1);
+    check_output_file("--out", options.out);
     const Strategy strategy = parse_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
     if (!ready.scene.camera) throw UsageError(options.scene + ": found no camera; a picture needs one");

@@ -1,6 +1,7 @@
 #include "mis/cli/report_folder.h"
 
 #include "mis/cli/options.h"
+#include "mis/io/atomic_file.h"
 #include "mis/io/report_csv.h"
 #include "mis/io/report_json.h"
 
@@ -28,7 +29,9 @@ void check_report_folder(const std::string& folder, bool force)
 void write_report_folder(const Report& report, const std::string& folder, bool force)
 {
     check_report_folder(folder, force);
-    fs::create_directory(folder);
+    std::error_code error;
+    fs::create_directory(folder, error);
+    if (error) throw WriteError(folder + ": cannot be made: " + error.message());
     write_report_json(report, (fs::path(folder) / "report.json").string());
     write_report_csv(report, (fs::path(folder) / "strategies.csv").string());
 }

@@ -22,7 +22,7 @@ double p_of_not_tied(const LogEstimate& ratio, double margin)
 std::vector<bool> holm(std::span<const double> p, double error)
 {
     std::vector<std::size_t> order(p.size());
-    std::iota(order.begin(), order.end(), 0u);
+    std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t i, std::size_t j) { return p[i] < p[j]; });
     std::vector<bool> rejected(p.size(), false);

@@ -14,7 +14,7 @@ std::string fixed(double value, int digits)
 {
     const double unit = std::pow(10.0, -digits);
     const double rounded = digits < 0 ? std::round(value / unit) * unit : value;
-    std::array<char, 400> text;
+    std::array<char, 400> text{};
     const auto end = std::to_chars(text.data(), text.data() + text.size(), rounded,
                                    std::chars_format::fixed, std::max(digits, 0));
     return {text.data(), end.ptr};
@@ -29,7 +29,7 @@ std::string number(double value, int digits)
 {
     if (std::isnan(value)) return "?";
     if (std::isinf(value)) return value > 0 ? "infinite" : "-infinite";
-    std::array<char, 64> buffer;
+    std::array<char, 64> buffer{};
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                    std::chars_format::general, digits);
     std::string text(buffer.data(), end.ptr);

@@ -7,8 +7,8 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
+#include <system_error>
 
 namespace mis {
 namespace {
@@ -106,7 +106,7 @@ void AtomicFile::commit()
 
 void AtomicFile::fail(int error) const
 {
-    std::string why = std::strerror(error);
+    std::string why = std::generic_category().message(error);
     if (error == ENOENT) why += fmt::format(" (is there a folder {}?)", folder_of(path_).string());
     throw WriteError(fmt::format("{}: cannot be written: {}", path_, why));
 }
@@ -116,7 +116,7 @@ void write_text(const std::string& path, std::string_view text)
     if (path == "-") {
         if (const int error = write_all(STDOUT_FILENO, text))
             throw WriteError(
-                fmt::format("standard output: cannot be written: {}", std::strerror(error)));
+                fmt::format("standard output: cannot be written: {}", std::generic_category().message(error)));
         return;
     }
     AtomicFile file(path);

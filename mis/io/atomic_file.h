@@ -22,6 +22,8 @@ public:
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
     AtomicFile& operator=(const AtomicFile&) = delete;
+    AtomicFile(AtomicFile&&) = delete;
+    AtomicFile& operator=(AtomicFile&&) = delete;
 
     /// For libraries that open files by name: an empty file that stands already.
     const std::string& temporary_path() const { return temporary_; }

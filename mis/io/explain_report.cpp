@@ -44,7 +44,7 @@ std::string explanation_text(const Explanation& found)
                           found.radius.high, found.power.low, found.power.high);
     text += paragraph("lights", lights);
     text += paragraph("surfaces", many(found.quads, "quad") + ", " + many(found.spheres, "sphere") + ", " +
-                                      many(found.meshes, "mesh") + (found.meshes > 1 ? "es" : "") + " of " +
+                                      fmt::format("{} {} of ", found.meshes, found.meshes == 1 ? "mesh" : "meshes") +
                                       many(found.triangles, "triangle"));
     if (found.width > 0)
         text += paragraph("picture", fmt::format("{} x {} pixels, of which {} show no surface", found.width, found.height,
@@ -63,7 +63,7 @@ std::string explanation_text(const Explanation& found)
                                             static_cast<double>(found.hierarchy_bytes) / 1e6));
     text += "\n";
     for (const EffectPlan& effect : found.effects)
-        text += paragraph(effect.name + (effect.on ? "  on" : "  off"), effect.why);
+        text += paragraph(effect.name, (effect.on ? "on: " : "off: ") + effect.why);
     return text;
 }
 

@@ -25,7 +25,7 @@ std::string short_number(double value);
 
 /// "0.0123 ±2%": the larger half of the interval, rounded up to a percent; "0" where exact, no
 /// error where none is known.
-std::string short_interval(const Interval& interval);
+std::string short_interval(const Interval& x);
 
 /// "0.83s", "12ms", "3.1m", "2.5h".
 std::string short_duration(double seconds);

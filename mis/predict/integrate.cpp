@@ -81,8 +81,14 @@ private:
         ray_.clear(size_);
         patch_.meridian(phi, meridian_);
         for (const Stretch& stretch : meridian_.stretches) {
-            if (group_.jumps.empty()) along_stretch(stretch, stretch.begin, stretch.end, 0);
-            else along_pieces(stretch);
+            double begin = stretch.begin;
+            for (const double cut : cuts_of(stretch)) {
+                const double rounding = 1e-13 * (stretch.end - stretch.begin);
+                if (cut - begin < rounding || stretch.end - cut < rounding) continue;
+                along_stretch(stretch, begin, cut, 0);
+                begin = cut;
+            }
+            along_stretch(stretch, begin, stretch.end, 0);
         }
     }
 
@@ -105,18 +111,20 @@ private:
         }
     }
 
-    /// The same, cut where the ratio of the densities crosses a jump of the weights.
-    void along_pieces(const Stretch& stretch)
+    /// Where to cut a stretch: at the hints, and where the ratio of the densities crosses a jump of the weights.
+    std::vector<double> cuts_of(const Stretch& stretch)
     {
+        std::vector<double> cuts = meridian_.hints;
+        if (group_.jumps.empty()) return cuts;
+        std::vector<double> looks = looking_points(stretch.begin, stretch.end, 24);
+        for (const double hint : meridian_.hints)
+            if (hint > looks.front() && hint < looks.back()) looks.push_back(hint);
+        std::sort(looks.begin(), looks.end());
         const auto ratio = [&](double theta) { return log_ratio(meridian_, stretch, theta); };
-        double begin = stretch.begin;
-        for (const double cut : crossings(ratio, looking_points(stretch.begin, stretch.end, 24), levels_)) {
-            const double rounding = 1e-13 * (stretch.end - stretch.begin);
-            if (cut - begin < rounding || stretch.end - cut < rounding) continue;
-            along_stretch(stretch, begin, cut, 0);
-            begin = cut;
-        }
-        along_stretch(stretch, begin, stretch.end, 0);
+        const std::vector<double> jumps = crossings(ratio, looks, levels_);
+        cuts.insert(cuts.end(), jumps.begin(), jumps.end());
+        std::sort(cuts.begin(), cuts.end());
+        return cuts;
     }
 
     double log_ratio(const Meridian& meridian, const Stretch& stretch, double theta) const

@@ -56,7 +56,8 @@ void add_turns(const Response& response, const std::vector<double>& angles, cons
     const auto at = [&](double angle) { return value(response.at(direction(angle))); };
     for (std::size_t i = 1; i + 1 < angles.size(); ++i) {
         const double a = at(angles[i - 1]), b = at(angles[i]), c = at(angles[i + 1]);
-        if (!((b > a && b > c) || (b < a && b < c))) continue;
+        const bool turns_here = (b > a && b > c) || (b < a && b < c);
+        if (!turns_here || std::min(std::abs(b - a), std::abs(b - c)) < 1e-9 * std::abs(b)) continue;  // but rounding
         std::uintmax_t rounds = 50;
         const double side = b > a ? -1 : 1;
         const auto found = boost::math::tools::brent_find_minima([&](double angle) { return side * at(angle); },

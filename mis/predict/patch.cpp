@@ -46,6 +46,18 @@ std::vector<int> things_of(const Meridian& meridian)
     return things;
 }
 
+/// Does `next` meet the same things as the last stretch, and begin where that ends?
+bool goes_on(const Meridian& meridian, const Stretch& next)
+{
+    if (meridian.stretches.empty()) return false;
+    const Stretch& last = meridian.stretches.back();
+    const auto things = [&](const Stretch& stretch) {
+        return std::span(meridian.along).subspan(stretch.first_along, stretch.along);
+    };
+    return last.end == next.begin && last.nearest == next.nearest &&
+           std::ranges::equal(things(last), things(next));
+}
+
 /// Directions from the origin to the points where the surfaces of two spheres meet just where one of them ends for the
 /// eye: the curve of equal distance starts there. `ends`: the one that ends.
 std::array<Vec3<double>, 2> rims_in_common(const Ball& ends, const Ball& other)
@@ -225,12 +237,16 @@ void Patch::add_breaks(const std::vector<Chord>& chords, const Vec3<double>& aro
         angles.push_back(std::atan2(mo, -me) < 0 ? std::atan2(mo, -me) + pi<double> : std::atan2(mo, -me));
     }
     for (const double angle : angles) add(angle);
-    if (pole_is_lobe_) {
-        for (double theta = lobe_.width; theta < high; theta *= 4) add(theta);
-    } else if (lobe_.is_narrower_than(1)) {
-        add(std::atan2(dot(lobe_.direction, around), dot(lobe_.direction, polar_.pole)));  // its nearest point
-    }
     std::sort(breaks.begin(), breaks.end());
+}
+
+void Patch::add_hints(double high, Meridian& out) const
+{
+    if (pole_is_lobe_) {
+        for (double theta = lobe_.width; theta < high; theta *= 4) out.hints.push_back(theta);
+    } else if (lobe_.is_narrower_than(1)) {
+        out.hints.push_back(std::atan2(dot(lobe_.direction, out.around), dot(lobe_.direction, polar_.pole)));
+    }
 }
 
 bool Patch::describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around, Meridian& out,
@@ -264,7 +280,7 @@ bool Patch::describe(double theta, const std::vector<Chord>& chords, const Vec3<
 void Patch::meridian(double phi, Meridian& out) const
 {
     out.around = polar_.around(phi);
-    out.stretches.clear(), out.along.clear();
+    out.stretches.clear(), out.along.clear(), out.hints.clear();
     std::vector<Chord> chords(circles_.size());
     for (std::size_t i = 0; i < circles_.size(); ++i) chords[i] = circles_[i].chord(phi);
     // Both ends of the own cap; all of it where it holds the antipode of the pole.
@@ -278,8 +294,11 @@ void Patch::meridian(double phi, Meridian& out) const
     for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
         if (!(breaks[i + 1] - breaks[i] > 1e-15 * high)) continue;
         Stretch stretch{.begin = breaks[i], .end = breaks[i + 1]};
-        if (describe((breaks[i] + breaks[i + 1]) / 2, chords, out.around, out, stretch)) out.stretches.push_back(stretch);
+        if (!describe((breaks[i] + breaks[i + 1]) / 2, chords, out.around, out, stretch)) continue;
+        if (goes_on(out, stretch)) out.stretches.back().end = stretch.end;
+        else out.stretches.push_back(stretch);
     }
+    add_hints(high, out);
 }
 
 }  // namespace mis

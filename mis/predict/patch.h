@@ -22,6 +22,7 @@ struct Meridian {
     Vec3<double> around;            ///< unit tangent at the pole
     std::vector<Stretch> stretches;
     std::vector<int> along;
+    std::vector<double> hints;      ///< θ, ascending: where the lobe may peak, and how wide it is
 };
 
 /// The directions above the horizon whose smallest cap is that of one light: what of the sky is integrated in that
@@ -46,6 +47,7 @@ private:
     double distance(int ball, const Vec3<double>& offset) const;
     void add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low, double high,
                     std::vector<double>& breaks) const;
+    void add_hints(double high, Meridian& out) const;
     bool describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around, Meridian& out,
                   Stretch& stretch) const;
 

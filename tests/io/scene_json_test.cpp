@@ -104,6 +104,15 @@ TEST(SceneJson, ReadsEveryKindOfThing)
     EXPECT_EQ(scene.lights[2].center, (Vec3<double>{5, 6, 7}));
 }
 
+TEST(JsonDocument, HandsOutTheStreamedListAndDoesNotKeepIt)
+{
+    std::vector<std::string> seen;
+    const auto sink = [&](const Json&, std::size_t index, const Json& element) { seen.push_back(fmt::format("{}:{}", index, element.dump())); };
+    const Json document = parse_json(R"({"a":{"list":[1]},"list":[[2,3],{"list":[4]},5],"b":[6]})", "a.json", "list", sink);
+    EXPECT_EQ(seen, (std::vector<std::string>{"0:[2,3]", "1:{\"list\":[4]}", "2:5"}));
+    EXPECT_EQ(document.dump(), R"({"a":{"list":[1]},"b":[6],"list":[]})");
+}
+
 TEST(SceneJson, TakesTheFilesNameForASceneWithoutOne)
 {
     EXPECT_EQ(parse_scene(lit(R"("surfaces":[])"), "some/where/my room.json").name, "my room");
