@@ -9,9 +9,10 @@ class Blinn : public HalfVectorBsdf {
 public:
     static constexpr std::string_view name = "blinn";
     explicit Blinn(const Material& material)
-        : HalfVectorBsdf{material.diffuse / pi<double>, material.specular * ((material.exponent + 8) / (8 * pi<double>)),
-                         material.exponent,
-                         specular_share(material, luminance(material.specular), luminance(material.diffuse))}
+        : HalfVectorBsdf{
+              material.diffuse / pi<double>,
+              material.specular * ((material.exponent + 8) / (8 * pi<double>)), material.exponent,
+              specular_share(material, luminance(material.specular), luminance(material.diffuse))}
     {
     }
 };

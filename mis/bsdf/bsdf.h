@@ -15,17 +15,27 @@ template <class T> struct BsdfValue {
     T pdf;      ///< density of the BSDF's own draws at wi, per steradian
 };
 
-/// How a surface scatters. Directions are unit vectors in the shading frame (z is the normal), away from the point,
-/// with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a wi with wi.z ≤ 0 is a lost draw,
-/// which contributes 0 and is not redrawn, so ∫pdf over the hemisphere + P(lost) = 1. draws(): false where all is black.
+/// How a surface scatters. Directions are unit vectors in the shading frame (z is the normal), away
+/// from the point, with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a
+/// wi with wi.z ≤ 0 is a lost draw, which contributes 0 and is not redrawn, so ∫pdf over the
+/// hemisphere + P(lost) = 1. draws(): false where all is black.
 template <class B, class T>
 concept Bsdf = std::constructible_from<B, const Material&> &&
-               requires(const B& bsdf, const Vec3<T>& w, const T& lobe, const Vec2<T>& u) {
-                   { B::name } -> std::convertible_to<std::string_view>;
-                   { bsdf.evaluate(w, w) } -> std::same_as<BsdfValue<T>>;
-                   { bsdf.sample(w, lobe, u) } -> std::same_as<Vec3<T>>;
-                   { bsdf.draws() } -> std::same_as<bool>;
-               };
+    requires(const B& bsdf, const Vec3<T>& w, const T& lobe, const Vec2<T>& u)
+{
+    {
+        B::name
+        } -> std::convertible_to<std::string_view>;
+    {
+        bsdf.evaluate(w, w)
+        } -> std::same_as<BsdfValue<T>>;
+    {
+        bsdf.sample(w, lobe, u)
+        } -> std::same_as<Vec3<T>>;
+    {
+        bsdf.draws()
+        } -> std::same_as<bool>;
+};
 
 /// An RGB constant in every lane.
 template <class T> MIS_INLINE Vec3<T> color(const Vec3<double>& rgb)
@@ -45,11 +55,13 @@ template <class T> MIS_INLINE HalfVector<T> half_vector(const Vec3<T>& wo, const
     const Vec3<T> sum = wo + wi;
     const T squared = max_of(length2(sum), number<T>(1e-30));
     const T inverse = number<T>(1) / squared;
-    return {(square(sum.x) + square(sum.y)) * inverse, square(sum.z) * inverse, sqrt(squared) * number<T>(0.5)};
+    return {(square(sum.x) + square(sum.y)) * inverse, square(sum.z) * inverse,
+            sqrt(squared) * number<T>(0.5)};
 }
 
 /// Draws a half vector ∝ cos^m θ_h and reflects wo about it. Its density: reflected_lobe_pdf.
-template <class T> MIS_INLINE Vec3<T> sample_reflected_lobe(const Vec3<T>& wo, const Vec2<T>& u, double m)
+template <class T>
+MIS_INLINE Vec3<T> sample_reflected_lobe(const Vec3<T>& wo, const Vec2<T>& u, double m)
 {
     const Vec3<T> h = sample_lobe(u, m);
     return h * (number<T>(2) * dot(wo, h)) - wo;
@@ -59,7 +71,8 @@ template <class T> MIS_INLINE T reflected_lobe_pdf(const T& lobe_value, const T&
     return number<T>((m + 1) / (8 * 3.14159265358979323846)) * lobe_value / wo_dot_h;
 }
 
-/// s of design §1: the probability of drawing from the specular lobe; a black lobe has 0 unless the scene says so.
+/// s of design §1: the probability of drawing from the specular lobe; a black lobe has 0 unless the
+/// scene says so.
 inline double specular_share(const Material& material, double specular, double diffuse)
 {
     if (material.specular_probability) return *material.specular_probability;
@@ -77,7 +90,8 @@ struct HalfVectorBsdf {
         const HalfVector<T> h = half_vector(wo, wi);
         const T lobe = pow_cos(h.sin2, h.cos2, m);
         return {color<T>(diffuse) + color<T>(specular) * lobe,
-                number<T>(1 - s) * cosine_pdf(wi.z) + number<T>(s) * reflected_lobe_pdf(lobe, h.wo_dot_h, m)};
+                number<T>(1 - s) * cosine_pdf(wi.z) +
+                    number<T>(s) * reflected_lobe_pdf(lobe, h.wo_dot_h, m)};
     }
     template <class T>
     MIS_INLINE Vec3<T> sample(const Vec3<T>& wo, const T& lobe, const Vec2<T>& u) const
@@ -85,7 +99,8 @@ struct HalfVectorBsdf {
         if (s <= 0) return sample_cosine(u);
         const Vec3<T> specular_wi = sample_reflected_lobe(wo, u, m), diffuse_wi = sample_cosine(u);
         const auto is_specular = lobe < number<T>(s);
-        return {select(is_specular, specular_wi.x, diffuse_wi.x), select(is_specular, specular_wi.y, diffuse_wi.y),
+        return {select(is_specular, specular_wi.x, diffuse_wi.x),
+                select(is_specular, specular_wi.y, diffuse_wi.y),
                 select(is_specular, specular_wi.z, diffuse_wi.z)};
     }
     bool draws() const { return luminance(diffuse) > 0 || luminance(specular) > 0; }

@@ -4,9 +4,9 @@
 
 namespace mis {
 
-/// f = diffuse/π + D·G2·F/(4 (n·wi)(n·wo)): isotropic GGX (Walter et al. 2007), height-correlated Smith masking
-/// (Heitz 2014, eq. 99), Schlick's Fresnel term, visible normals drawn (Heitz 2018, "Sampling the GGX Distribution of
-/// Visible Normals", JCGT 7(4)).
+/// f = diffuse/π + D·G2·F/(4 (n·wi)(n·wo)): isotropic GGX (Walter et al. 2007), height-correlated
+/// Smith masking (Heitz 2014, eq. 99), Schlick's Fresnel term, visible normals drawn (Heitz 2018,
+/// "Sampling the GGX Distribution of Visible Normals", JCGT 7(4)).
 class Ggx {
 public:
     static constexpr std::string_view name = "ggx";
@@ -20,10 +20,11 @@ public:
     {
         const HalfVector<T> h = half_vector(wo, wi);
         const T a2 = number<T>(alpha_ * alpha_);
-        const T d = a2 / (T(pi<T>)*square(a2 * h.cos2 + h.sin2));
+        const T d = a2 / (T(pi<T>) * square(a2 * h.cos2 + h.sin2));
         const T smith_o = smith(wo.z), smith_i = smith(wi.z);
-        const T reflected = d * number<T>(0.5) / (wo.z * smith_i + wi.z * smith_o);  // D·G2/(4 (n·wi)(n·wo))
-        // 1 − wo·h, which cancels near normal incidence, from |wo − wi| = 2 sin: its fifth power is all there is if f0 = 0.
+        const T reflected =
+            d * number<T>(0.5) / (wo.z * smith_i + wi.z * smith_o);  // D·G2/(4 (n·wi)(n·wo))
+        // 1 − wo·h, which cancels near normal incidence, from |wo − wi| (docs/theory.md, eq. 19).
         const T away = length2(wo - wi) * number<T>(0.25) / (number<T>(1) + h.wo_dot_h);
         const T fresnel = square(square(away)) * away;
         const Vec3<T> f0 = color<T>(f0_);
@@ -37,9 +38,11 @@ public:
     MIS_INLINE Vec3<T> sample(const Vec3<T>& wo, const T& lobe, const Vec2<T>& u) const
     {
         const Vec3<T> h = sample_visible_normal(wo, u);
-        const Vec3<T> specular_wi = h * (number<T>(2) * dot(wo, h)) - wo, diffuse_wi = sample_cosine(u);
+        const Vec3<T> specular_wi = h * (number<T>(2) * dot(wo, h)) - wo,
+                      diffuse_wi = sample_cosine(u);
         const auto is_specular = lobe < number<T>(s_);
-        return {select(is_specular, specular_wi.x, diffuse_wi.x), select(is_specular, specular_wi.y, diffuse_wi.y),
+        return {select(is_specular, specular_wi.x, diffuse_wi.x),
+                select(is_specular, specular_wi.y, diffuse_wi.y),
                 select(is_specular, specular_wi.z, diffuse_wi.z)};
     }
 
@@ -61,7 +64,8 @@ private:
         return sqrt(number<T>(a2) + number<T>(1 - a2) * square(cos_theta));
     }
 
-    template <class T> MIS_INLINE Vec3<T> sample_visible_normal(const Vec3<T>& wo, const Vec2<T>& u) const
+    template <class T>
+    MIS_INLINE Vec3<T> sample_visible_normal(const Vec3<T>& wo, const Vec2<T>& u) const
     {
         using std::sqrt, std::cos, std::sin;
         const T alpha = number<T>(alpha_), one = number<T>(1);
@@ -75,7 +79,8 @@ private:
         const T r = sqrt(u.x), phi = T(two_pi<T>) * u.y;
         const T p1 = r * cos(phi);
         const T tilt = number<T>(0.5) * (one + stretched.z);
-        const T p2 = (one - tilt) * sqrt(max_of(one - square(p1), number<T>(0))) + tilt * (r * sin(phi));
+        const T p2 =
+            (one - tilt) * sqrt(max_of(one - square(p1), number<T>(0))) + tilt * (r * sin(phi));
         const T p3 = sqrt(max_of(one - square(p1) - square(p2), number<T>(0)));
         const Vec3<T> visible = t1 * p1 + t2 * p2 + stretched * p3;
         return normalized(

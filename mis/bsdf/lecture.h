@@ -9,9 +9,11 @@ class Lecture : public HalfVectorBsdf {
 public:
     static constexpr std::string_view name = "lecture";
     explicit Lecture(const Material& material)
-        : HalfVectorBsdf{material.diffuse, material.specular, material.exponent,
-                         specular_share(material, luminance(material.specular) * 8 * pi<double> / (material.exponent + 8),
-                                        luminance(material.diffuse) * pi<double>)}
+        : HalfVectorBsdf{
+              material.diffuse, material.specular, material.exponent,
+              specular_share(
+                  material, luminance(material.specular) * 8 * pi<double> / (material.exponent + 8),
+                  luminance(material.diffuse) * pi<double>)}
     {
     }
 };

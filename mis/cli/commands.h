@@ -7,8 +7,9 @@
 
 namespace mis::cli {
 
-// One function per command: runs it and returns its exit code. They throw UsageError, StrategyError, SceneError
-// (exit 2), and std::runtime_error for what failed while running (exit 1).
+// One function per command: runs it and returns its exit code. They throw UsageError,
+// StrategyError, SceneError (exit 2), and std::runtime_error for what failed while running (exit
+// 1).
 
 struct RenderOptions {
     std::string scene, strategy = "radiant-solid-angle/power", out;
@@ -19,7 +20,8 @@ int run_render(const RenderOptions& options);
 
 struct CompareOptions {
     std::vector<std::string> scenes;
-    std::string policies, heuristics, techniques, models, strategies;  ///< lists; empty: the default
+    std::string policies, heuristics, techniques, models,
+        strategies;  ///< lists; empty: the default
     double at = 16;
     std::string out;  ///< folder, or empty
     bool force = false;
@@ -37,9 +39,9 @@ struct ExplainOptions {
 int run_explain(const ExplainOptions& options);
 
 struct IntegrateOptions {
-    std::string pdf = "all";       ///< hemisphere, cosine, angles, blinn; or all
+    std::string pdf = "all";              ///< hemisphere, cosine, angles, blinn; or all
     std::optional<std::string> exponent;  ///< of the lobe, as typed; 10 where it is not
-    std::string samples = "10000"; ///< as typed
+    std::string samples = "10000";        ///< as typed
     std::uint64_t seed = 1;
     std::string command_line;
     OutputOptions output;

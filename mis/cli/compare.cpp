@@ -24,13 +24,16 @@ void check_memory(const Scene& scene, std::size_t strategies)
 {
     std::size_t points = scene.probes.size();
     if (scene.camera)
-        points += static_cast<std::size_t>(scene.camera->resolution[0]) * static_cast<std::size_t>(scene.camera->resolution[1]);
+        points += static_cast<std::size_t>(scene.camera->resolution[0]) *
+                  static_cast<std::size_t>(scene.camera->resolution[1]);
     const double needed = static_cast<double>(study_bytes(points, strategies));
-    const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    const double there =
+        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     if (needed > 0.8 * there)
-        throw UsageError(fmt::format("{}: {} shading points by {} strategies take about {:.1f} GB, and this machine has "
-                                     "{:.1f} GB\n    Lower --resolution, or compare fewer strategies.",
-                                     scene.file, points, strategies, needed / 1e9, there / 1e9));
+        throw UsageError(fmt::format(
+            "{}: {} shading points by {} strategies take about {:.1f} GB, and this machine has "
+            "{:.1f} GB\n    Lower --resolution, or compare fewer strategies.",
+            scene.file, points, strategies, needed / 1e9, there / 1e9));
 }
 
 StudyOptions study_options(const CompareOptions& options, Progress& progress)
@@ -57,7 +60,8 @@ void check_options(const CompareOptions& options)
 {
     check(options.stop, 4);
     if (!(options.at > 0 && options.at <= 1e12))
-        throw UsageError(fmt::format("--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
+        throw UsageError(fmt::format(
+            "--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
     check(options.output);
 }
 
@@ -73,15 +77,19 @@ void write_outputs(const CompareOptions& options, const Report& report)
 int run_compare(const CompareOptions& options)
 {
     check_options(options);
-    const StrategySelection selection = select_strategies(
-        {options.policies, options.heuristics, options.techniques, options.models, options.strategies});
+    const StrategySelection selection =
+        select_strategies({options.policies, options.heuristics, options.techniques, options.models,
+                           options.strategies});
     if (!options.out.empty()) check_report_folder(options.out, options.force);
-    Report report{.version = MIS_VERSION, .command = options.run.command_line, .machine = machine_description()};
+    Report report{.version = MIS_VERSION,
+                  .command = options.run.command_line,
+                  .machine = machine_description()};
     report.seed = options.run.seed;
     report.at = options.at;
     report.instruction_set = kernels<float>().instruction_set;
     if (!options.run.quiet)
-        for (const std::string& reason : selection.left_out) fmt::print(stderr, "left out: {}\n", reason);
+        for (const std::string& reason : selection.left_out)
+            fmt::print(stderr, "left out: {}\n", reason);
 
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
     watch_for_interrupt();
@@ -90,12 +98,15 @@ int run_compare(const CompareOptions& options)
         const ReadyScene ready(file, options.run);
         check_memory(ready.scene, selection.strategies.size());
         report.threads = ready.executor.threads;
-        const Study study = run_study(ready.lit, selection.strategies, study_options(options, progress), ready.executor);
+        const Study study = run_study(ready.lit, selection.strategies,
+                                      study_options(options, progress), ready.executor);
         progress.clear();
+        if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
         report.scenes.push_back(study.report);
         report.partial = report.partial || study.report.partial;
         if (shows_table) {
-            fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "", scene_text(report.scenes.back(), report));
+            fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
+                       scene_text(report.scenes.back(), report));
             std::fflush(stdout);
         }
         if (interrupt_flag()) break;

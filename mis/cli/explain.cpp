@@ -8,13 +8,17 @@ namespace mis::cli {
 
 int run_explain(const ExplainOptions& options)
 {
-    if (!options.output.csv.empty()) throw UsageError("--csv: explain has no table of figures; it has --json");
+    if (!options.output.csv.empty())
+        throw UsageError("--csv: explain has no table of figures; it has --json");
     check(options.output);
     const ReadyScene ready(options.scene, options.run);
     const Explanation explanation = explain(ready.lit, ready.executor);
     if (options.output.json != "-") fmt::print("{}", explanation_text(explanation));
     if (!options.output.json.empty())
-        write_explanation_json(explanation, {.command = options.run.command_line, .seed = options.run.seed, .threads = ready.executor.threads},
+        write_explanation_json(explanation,
+                               {.command = options.run.command_line,
+                                .seed = options.run.seed,
+                                .threads = ready.executor.threads},
                                options.output.json);
     return ok;
 }

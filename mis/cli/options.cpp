@@ -27,22 +27,31 @@ std::string seed_fault(const std::string& text)
 
 void add_run_options(CLI::App& command, RunOptions& options)
 {
-    command.add_option("--threads", options.threads, "threads to run on (0: as many as the machine has)");
+    command.add_option("--threads", options.threads,
+                       "threads to run on (0: as many as the machine has)");
     command.add_option("--seed", options.seed, "seed of the random numbers")
         ->capture_default_str()
         ->check(seed_fault);
-    command.add_option("--resolution", options.resolution, "picture size WxH in place of the scene's");
-    command.add_option("--effects", options.effects, "auto: only what the scene calls for; all: everything")
+    command.add_option("--resolution", options.resolution,
+                       "picture size WxH in place of the scene's");
+    command
+        .add_option("--effects", options.effects,
+                    "auto: only what the scene calls for; all: everything")
         ->capture_default_str();
-    command.add_option("--sampler", options.sampler, "independent random numbers")->capture_default_str();
+    command.add_option("--sampler", options.sampler, "independent random numbers")
+        ->capture_default_str();
     command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
 }
 
 void add_output_options(CLI::App& command, OutputOptions& options)
 {
-    command.add_option("--json", options.json, "write the figures as JSON to FILE, or - for standard output")
+    command
+        .add_option("--json", options.json,
+                    "write the figures as JSON to FILE, or - for standard output")
         ->type_name("FILE");
-    command.add_option("--csv", options.csv, "write the figures as CSV to FILE, or - for standard output")
+    command
+        .add_option("--csv", options.csv,
+                    "write the figures as CSV to FILE, or - for standard output")
         ->type_name("FILE");
 }
 
@@ -51,12 +60,15 @@ void check_output_file(const std::string& option, const std::string& file)
     namespace fs = std::filesystem;
     if (file.empty() || file == "-") return;
     std::error_code error;
-    if (fs::is_directory(file, error)) throw UsageError(option + ": found " + file + ", which is a folder; a file is needed");
+    if (fs::is_directory(file, error))
+        throw UsageError(option + ": found " + file + ", which is a folder; a file is needed");
     if (fs::exists(file, error)) return;  // written beside and renamed, or a pipe
     const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
-    if (!fs::is_directory(folder, error)) throw UsageError(option + ": there is no folder " + folder.string());
+    if (!fs::is_directory(folder, error))
+        throw UsageError(option + ": there is no folder " + folder.string());
     if (access(folder.c_str(), W_OK) != 0)
-        throw UsageError(option + ": found " + folder.string() + ", a folder that cannot be written to");
+        throw UsageError(option + ": found " + folder.string() +
+                         ", a folder that cannot be written to");
 }
 
 void check(const OutputOptions& options)
@@ -76,16 +88,23 @@ void add_stop_options(CLI::App& command, StopOptions& options)
 
 void check(const StopOptions& options, std::int64_t least_spp)
 {
-    if (int{options.spp.has_value()} + int{options.seconds.has_value()} + int{options.error.has_value()} > 1)
-        throw UsageError("--spp, --time and --error: found more than one; give one of them, or none");
+    if (int{options.spp.has_value()} + int{options.seconds.has_value()} +
+            int{options.error.has_value()} >
+        1)
+        throw UsageError(
+            "--spp, --time and --error: found more than one; give one of them, or none");
     constexpr std::int64_t most_spp = std::int64_t{1} << 40;
     if (options.spp && (*options.spp < least_spp || *options.spp > most_spp))
-        throw UsageError(fmt::format("--spp: found {}; {} to {} samples per shading point are allowed", *options.spp,
-                                     least_spp, most_spp));
+        throw UsageError(
+            fmt::format("--spp: found {}; {} to {} samples per shading point are allowed",
+                        *options.spp, least_spp, most_spp));
     if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 1e7))
-        throw UsageError(fmt::format("--time: found {}; a time is greater than 0 and at most 1e7 seconds", *options.seconds));
+        throw UsageError(
+            fmt::format("--time: found {}; a time is greater than 0 and at most 1e7 seconds",
+                        *options.seconds));
     if (options.error && !(*options.error > 0 && *options.error < 10))
-        throw UsageError(fmt::format("--error: found {}; a relative error is greater than 0 and below 10", *options.error));
+        throw UsageError(fmt::format(
+            "--error: found {}; a relative error is greater than 0 and below 10", *options.error));
 }
 
 namespace {
@@ -102,8 +121,9 @@ std::array<int, 2> parse_resolution(const std::string& text)
     }
     const auto in_range = [](int n) { return n >= 1 && n <= limits::resolution; };
     if (!is_good || !in_range(size[0]) || !in_range(size[1]))
-        throw UsageError(fmt::format("--resolution: found \"{}\"; a resolution is WxH, each from 1 to {}, as in 256x171",
-                                     text, limits::resolution));
+        throw UsageError(fmt::format(
+            "--resolution: found \"{}\"; a resolution is WxH, each from 1 to {}, as in 256x171",
+            text, limits::resolution));
     return size;
 }
 
@@ -116,20 +136,30 @@ Scene read_scene_for(const std::string& file, const RunOptions& options)
     if (options.sampler != "independent")
         throw UsageError("--sampler: found \"" + options.sampler + "\"; known is independent");
     const std::optional<std::array<int, 2>> resolution =
-        options.resolution.empty() ? std::nullopt : std::optional(parse_resolution(options.resolution));
+        options.resolution.empty() ? std::nullopt
+                                   : std::optional(parse_resolution(options.resolution));
     Scene scene = read_scene(file);
     if (resolution) {
-        if (!scene.camera) throw UsageError("--resolution: " + file + " has no camera, so it has no picture");
+        if (!scene.camera)
+            throw UsageError("--resolution: " + file + " has no camera, so it has no picture");
         scene.camera->resolution = *resolution;
     }
     return scene;
+}
+
+std::string no_points_message(const Scene& scene)
+{
+    return scene.file +
+           ": /camera: found no surface in view; a picture needs one to be lit\n"
+           "    Turn the camera, add surfaces, or give probes without a camera.";
 }
 
 AnyExecutor make_executor(const RunOptions& options)
 {
     constexpr int most = 1024;
     if (options.threads < 0 || options.threads > most)
-        throw UsageError(fmt::format("--threads: found {}; 0 to {} are allowed", options.threads, most));
+        throw UsageError(
+            fmt::format("--threads: found {}; 0 to {} are allowed", options.threads, most));
     return any_executor(TbbExecutor(options.threads));
 }
 
@@ -142,7 +172,8 @@ std::vector<std::string> split_list(const std::string& list, const std::string& 
         const std::size_t first = list.find_first_not_of(" \t", start);
         const std::size_t last = list.find_last_not_of(" \t", comma == 0 ? 0 : comma - 1);
         if (comma == start || first >= comma || last == std::string::npos)
-            throw UsageError(option + ": found \"" + list + "\"; a list is names separated by commas");
+            throw UsageError(option + ": found \"" + list +
+                             "\"; a list is names separated by commas");
         parts.push_back(list.substr(first, last - first + 1));
         start = comma + 1;
     }

@@ -24,16 +24,17 @@ struct UsageError : std::runtime_error {
 
 /// What every command that runs takes.
 struct RunOptions {
-    int threads = 0;          ///< 0: as many as the machine has
+    int threads = 0;  ///< 0: as many as the machine has
     std::uint64_t seed = 1;
     bool quiet = false;
-    std::string resolution;   ///< "WxH", or empty for the scene's
+    std::string resolution;  ///< "WxH", or empty for the scene's
     std::string effects = "auto";
     std::string sampler = "independent";
     std::string command_line;
 };
 
-/// What is wrong with the text of a seed, or nothing; the parser's own conversion would wrap −1 around.
+/// What is wrong with the text of a seed, or nothing; the parser's own conversion would wrap −1
+/// around.
 std::string seed_fault(const std::string& text);
 
 /// --threads, --seed, --quiet, --resolution, --effects, --sampler.
@@ -45,7 +46,8 @@ struct OutputOptions {
 };
 void add_output_options(CLI::App& command, OutputOptions& options);
 
-/// Throws UsageError where a file of that name could not be made: before a run whose figures would be lost.
+/// Throws UsageError where a file of that name could not be made: before a run whose figures would
+/// be lost.
 void check_output_file(const std::string& option, const std::string& file);
 void check(const OutputOptions& options);
 
@@ -56,11 +58,15 @@ struct StopOptions {
 };
 void add_stop_options(CLI::App& command, StopOptions& options);
 
-/// Throws UsageError unless the values make sense together; `least_spp` is the fewest samples the command can use.
+/// Throws UsageError unless the values make sense together; `least_spp` is the fewest samples the
+/// command can use.
 void check(const StopOptions& options, std::int64_t least_spp);
 
 /// The scene of that file at the resolution that was asked for. Throws SceneError and UsageError.
 Scene read_scene_for(const std::string& file, const RunOptions& options);
+
+/// What to say where the camera sees no surface.
+std::string no_points_message(const Scene& scene);
 
 /// As many threads as asked for. Throws UsageError.
 AnyExecutor make_executor(const RunOptions& options);

@@ -32,11 +32,12 @@ void Progress::show(const std::string& what, double done)
     last_ = now;
     const double share = std::clamp(done, 0.0, 1.0);
     const double passed = std::chrono::duration<double>(now - start_).count();
-    const std::string left = share > 0.02 ? fmt::format("{:.0f} s left", passed / share * (1 - share)) : "";
+    const std::string left =
+        share > 0.02 ? fmt::format("{:.0f} s left", passed / share * (1 - share)) : "";
     constexpr std::size_t bar = 24;
     const auto filled = static_cast<std::size_t>(share * bar);
-    std::string line = fmt::format("[{}{}] {:3.0f} %  {}  {}", std::string(filled, '#'), std::string(bar - filled, '.'),
-                                   share * 100, left, what);
+    std::string line = fmt::format("[{}{}] {:3.0f} %  {}  {}", std::string(filled, '#'),
+                                   std::string(bar - filled, '.'), share * 100, left, what);
     line.resize(std::min(line.size(), terminal_width() - 1));
     fmt::print(stderr, "\r\x1b[K{}", line);
     std::fflush(stderr);

@@ -5,8 +5,8 @@
 
 namespace mis::cli {
 
-/// A line on standard error that shows how far a run is: redrawn in place where standard error is a terminal, nothing
-/// otherwise, and nothing where it is not wanted.
+/// A line on standard error that shows how far a run is: redrawn in place where standard error is a
+/// terminal, nothing otherwise, and nothing where it is not wanted.
 class Progress {
 public:
     explicit Progress(bool is_wanted);

@@ -8,12 +8,16 @@
 
 namespace mis::cli {
 
-/// A scene file read and made ready: what every command that runs starts from. Throws what reading throws.
+/// A scene file read and made ready: what every command that runs starts from. Throws what reading
+/// throws.
 struct ReadyScene {
     ReadyScene(const std::string& file, const RunOptions& options)
         : executor(make_executor(options)), scene(read_scene_for(file, options)),
-          tracer(scene.surfaces.empty() && options.effects != "all" ? nullptr : std::make_unique<EmbreeTracer>(scene)),
-          lit(scene, tracer.get(), options.effects == "all" ? all_effects(scene) : called_for(scene))
+          tracer(scene.surfaces.empty() && options.effects != "all"
+                     ? nullptr
+                     : std::make_unique<EmbreeTracer>(scene)),
+          lit(scene, tracer.get(),
+              options.effects == "all" ? all_effects(scene) : called_for(scene))
     {
     }
     ReadyScene(const ReadyScene&) = delete;

@@ -33,7 +33,8 @@ double relative_error(const Band& band)
     double sum = 0;
     for (const PointResult& result : band.results) {
         const double n = static_cast<double>(result.luminance.count), mu = result.luminance.mean;
-        if (result.luminance.m2 > 0) sum += result.luminance.variance() / n / (mu * mu + epsilon * epsilon);
+        if (result.luminance.m2 > 0)
+            sum += result.luminance.variance() / n / (mu * mu + epsilon * epsilon);
     }
     return std::sqrt(sum / static_cast<double>(points));
 }
@@ -48,13 +49,18 @@ struct Outcome {
 };
 
 /// A given number of samples: band by band, so that memory does not grow with the picture.
-Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy, std::uint64_t spp, Progress& progress)
+Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy, std::uint64_t spp,
+                   Progress& progress)
 {
     constexpr int band_pixels = 1 << 20;
     const auto [width, height] = ready.scene.camera->resolution;
-    const int band_rows = std::clamp(band_pixels / width / tile_side * tile_side, tile_side, height + tile_side);
+    const int band_rows =
+        std::clamp(band_pixels / width / tile_side * tile_side, tile_side, height + tile_side);
     Outcome outcome;
-    outcome.image = {width, height, std::vector<Vec3<float>>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Vec3<float>(0.0F))};
+    outcome.image = {
+        width, height,
+        std::vector<Vec3<float>>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                                 Vec3<float>(0.0F))};
     outcome.samples = spp;
     WorkspacePool<float> workspaces;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
@@ -62,9 +68,12 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
         constexpr std::uint64_t step = 16;
         for (std::uint64_t s = 0; s < spp && !outcome.is_partial; s += step) {
             const int count = static_cast<int>(std::min(step, spp - s));
-            outcome.invalid += light_band(strategy, band, s, count, workspaces, ready.executor).invalid;
+            outcome.invalid +=
+                light_band(strategy, band, s, count, workspaces, ready.executor).invalid;
             outcome.is_partial = interrupt_flag();
-            progress.show("rendering", (row + double(band.shading.rows) * double(s + step) / double(spp)) / height);
+            progress.show(
+                "rendering",
+                (row + double(band.shading.rows) * double(s + step) / double(spp)) / height);
         }
         outcome.shading_points += band.results.size() + band.shading.dark.size();
         draw_band(ready.lit, band, outcome.image);
@@ -74,13 +83,16 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
 }
 
 /// Until a time or an error is reached: all of the picture at once, in doubling rounds.
-Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strategy, const StopOptions& stop,
-                     Progress& progress)
+Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strategy,
+                     const StopOptions& stop, Progress& progress)
 {
     const auto start = std::chrono::steady_clock::now();
     const auto [width, height] = ready.scene.camera->resolution;
     Outcome outcome;
-    outcome.image = {width, height, std::vector<Vec3<float>>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), Vec3<float>(0.0F))};
+    outcome.image = {
+        width, height,
+        std::vector<Vec3<float>>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                                 Vec3<float>(0.0F))};
     WorkspacePool<float> workspaces;
     Band band = find_band(ready.lit, 0, height, ready.executor);
     outcome.shading_points = band.results.size() + band.shading.dark.size();
@@ -88,7 +100,8 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     bool is_done = false;
     while (!is_done) {
         const auto round = std::chrono::steady_clock::now();
-        outcome.invalid += light_band(strategy, band, outcome.samples, count, workspaces, ready.executor).invalid;
+        outcome.invalid +=
+            light_band(strategy, band, outcome.samples, count, workspaces, ready.executor).invalid;
         outcome.samples += static_cast<std::uint64_t>(count);
         outcome.is_partial = interrupt_flag();
         outcome.error = relative_error(band);
@@ -101,8 +114,10 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
         } else {
             const double wanted = *stop.error;
             is_done = outcome.error <= wanted;
-            const double needed = double(outcome.samples) * (outcome.error * outcome.error / (wanted * wanted) - 1);
-            count = static_cast<int>(std::clamp(needed, 1.0, std::min(64.0, double(outcome.samples))));
+            const double needed =
+                double(outcome.samples) * (outcome.error * outcome.error / (wanted * wanted) - 1);
+            count =
+                static_cast<int>(std::clamp(needed, 1.0, std::min(64.0, double(outcome.samples))));
             progress.show("rendering", wanted * wanted / (outcome.error * outcome.error));
         }
         is_done = is_done || outcome.is_partial || band.results.empty();
@@ -119,7 +134,8 @@ int run_render(const RenderOptions& options)
     check_output_file("--out", options.out);
     const Strategy strategy = parse_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
-    if (!ready.scene.camera) throw UsageError(options.scene + ": found no camera; a picture needs one");
+    if (!ready.scene.camera)
+        throw UsageError(options.scene + ": found no camera; a picture needs one");
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
     const auto start = std::chrono::steady_clock::now();
@@ -128,8 +144,11 @@ int run_render(const RenderOptions& options)
     const Outcome outcome =
         stop.seconds || stop.error
             ? render_until(ready, prepared, stop, progress)
-            : render_spp(ready, prepared, static_cast<std::uint64_t>(stop.spp.value_or(64)), progress);
+            : render_spp(ready, prepared, static_cast<std::uint64_t>(stop.spp.value_or(64)),
+                         progress);
     progress.clear();
+    if (outcome.shading_points == 0 && !outcome.is_partial)
+        throw UsageError(no_points_message(ready.scene));
     write_exr(options.out, outcome.image,
               {{"Software", std::string("mis ") + MIS_VERSION},
                {"mis/command", options.run.command_line},
@@ -138,11 +157,15 @@ int run_render(const RenderOptions& options)
                {"mis/samples_per_point", std::to_string(outcome.samples)},
                {"mis/partial", outcome.is_partial ? "true" : "false"}});
     if (!options.run.quiet) {
-        fmt::print(stderr, "{}: {} x {} pixels, {} shading points, {} samples each by {}, {:.2f} s{}\n", options.out,
-                   outcome.image.width, outcome.image.height, outcome.shading_points, outcome.samples, name_of(strategy),
-                   seconds_since(start), outcome.is_partial ? " (partial: interrupted)" : "");
-        if (outcome.error > 0) fmt::print(stderr, "relative error of the estimate: {:.3g} %\n", 100 * outcome.error);
-        if (outcome.invalid > 0) fmt::print(stderr, "{} samples were not finite and count as 0\n", outcome.invalid);
+        fmt::print(stderr,
+                   "{}: {} x {} pixels, {} shading points, {} samples each by {}, {:.2f} s{}\n",
+                   options.out, outcome.image.width, outcome.image.height, outcome.shading_points,
+                   outcome.samples, name_of(strategy), seconds_since(start),
+                   outcome.is_partial ? " (partial: interrupted)" : "");
+        if (outcome.error > 0)
+            fmt::print(stderr, "relative error of the estimate: {:.3g} %\n", 100 * outcome.error);
+        if (outcome.invalid > 0)
+            fmt::print(stderr, "{} samples were not finite and count as 0\n", outcome.invalid);
     }
     return outcome.is_partial ? interrupted : ok;
 }

@@ -20,10 +20,15 @@ void check_report_folder(const std::string& folder, bool force)
     if (fs::exists(status) && !fs::is_directory(status))
         throw UsageError("--out: found " + folder + ", which is a file; a folder is needed");
     if (fs::exists(status) && !force)
-        throw UsageError("--out: found " + folder + ", which exists; --force writes into it all the same");
-    const fs::path parent = fs::exists(status) ? fs::path(folder) : fs::absolute(folder).lexically_normal().parent_path();
-    if (!fs::is_directory(parent, error)) throw UsageError("--out: there is no folder " + parent.string());
-    if (access(parent.c_str(), W_OK) != 0) throw UsageError("--out: found " + parent.string() + ", which cannot be written to");
+        throw UsageError("--out: found " + folder +
+                         ", which exists; --force writes into it all the same");
+    const fs::path parent = fs::exists(status)
+                                ? fs::path(folder)
+                                : fs::absolute(folder).lexically_normal().parent_path();
+    if (!fs::is_directory(parent, error))
+        throw UsageError("--out: there is no folder " + parent.string());
+    if (access(parent.c_str(), W_OK) != 0)
+        throw UsageError("--out: found " + parent.string() + ", which cannot be written to");
 }
 
 void write_report_folder(const Report& report, const std::string& folder, bool force)

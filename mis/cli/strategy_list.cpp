@@ -21,8 +21,8 @@ std::vector<std::string> names_of(const std::vector<Choosable>& list)
 }
 
 /// The names of a list option, each of them known.
-std::vector<std::string> listed(const std::string& option, const std::string& given, const std::string& otherwise,
-                                const std::vector<std::string>& known)
+std::vector<std::string> listed(const std::string& option, const std::string& given,
+                                const std::string& otherwise, const std::vector<std::string>& known)
 {
     const std::vector<std::string> names = split_list(given.empty() ? otherwise : given, option);
     const std::vector<std::string_view> views(known.begin(), known.end());
@@ -37,18 +37,23 @@ std::vector<std::string> listed(const std::string& option, const std::string& gi
 
 void add(StrategySelection& selection, const Strategy& strategy)
 {
-    if (std::find(selection.strategies.begin(), selection.strategies.end(), strategy) == selection.strategies.end())
+    if (std::find(selection.strategies.begin(), selection.strategies.end(), strategy) ==
+        selection.strategies.end())
         selection.strategies.push_back(strategy);
 }
 
-/// Policies × heuristics × techniques × models; brdf among the heuristics stands for the strategy of that name.
+/// Policies × heuristics × techniques × models; brdf among the heuristics stands for the strategy
+/// of that name.
 void add_product(StrategySelection& selection, const StrategyLists& lists)
 {
     std::vector<std::string> heuristics_known = names_of(heuristic_names());
     heuristics_known.emplace_back("brdf");
-    const auto policies = listed("--policy", lists.policies, default_policies, names_of(policy_names()));
-    const auto heuristics = listed("--heuristic", lists.heuristics, default_heuristics, heuristics_known);
-    const auto techniques = listed("--technique", lists.techniques, "cone", names_of(technique_names()));
+    const auto policies =
+        listed("--policy", lists.policies, default_policies, names_of(policy_names()));
+    const auto heuristics =
+        listed("--heuristic", lists.heuristics, default_heuristics, heuristics_known);
+    const auto techniques =
+        listed("--technique", lists.techniques, "cone", names_of(technique_names()));
     const auto models = listed("--model", lists.models, "multi", {"multi", "one-sample"});
     for (const std::string& model : models)
         for (const std::string& technique : techniques)
@@ -73,11 +78,12 @@ void add_product(StrategySelection& selection, const StrategyLists& lists)
 StrategySelection select_strategies(const StrategyLists& lists)
 {
     StrategySelection selection;
-    const bool has_lists =
-        !(lists.policies.empty() && lists.heuristics.empty() && lists.techniques.empty() && lists.models.empty());
+    const bool has_lists = !(lists.policies.empty() && lists.heuristics.empty() &&
+                             lists.techniques.empty() && lists.models.empty());
     if (has_lists || lists.strategies.empty()) add_product(selection, lists);
     if (!lists.strategies.empty())
-        for (const std::string& name : split_list(lists.strategies, "--strategy")) add(selection, parse_strategy(name));
+        for (const std::string& name : split_list(lists.strategies, "--strategy"))
+            add(selection, parse_strategy(name));
     if (selection.strategies.empty())
         throw UsageError("no strategy is left:\n    " + selection.left_out.front());
     return selection;

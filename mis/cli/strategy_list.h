@@ -12,14 +12,16 @@ struct StrategyLists {
     std::string policies, heuristics, techniques, models, strategies;
 };
 
-/// The strategies to rank, each once, in the order asked for, and those of a product of lists that have no meaning.
+/// The strategies to rank, each once, in the order asked for, and those of a product of lists that
+/// have no meaning.
 struct StrategySelection {
     std::vector<Strategy> strategies;
     std::vector<std::string> left_out;  ///< the reason for each, by name
 };
 
-/// Every combination of the lists that has a meaning, and the strategies named. Nothing said: the classic policies ×
-/// light, balance, power, and brdf. Throws StrategyError and UsageError for unknown names, or where nothing is left.
+/// Every combination of the lists that has a meaning, and the strategies named. Nothing said: the
+/// classic policies × light, balance, power, and brdf. Throws StrategyError and UsageError for
+/// unknown names, or where nothing is left.
 StrategySelection select_strategies(const StrategyLists& lists);
 
 }  // namespace mis::cli

@@ -18,10 +18,14 @@ namespace {
 /// Independent groups of draws: the spread over them gives the standard errors.
 constexpr std::size_t groups = 8;
 
+/// A group looks so many times at least, all points together: few points are looked at more often.
+constexpr std::size_t fewest_looks = 1024;
+
 /// Sample numbers of the audit start here: no strategy draws from them.
 constexpr std::uint64_t first_sample = std::uint64_t{1} << 48;
 
-/// Integrals of one strategy at one point, from one group of draws: of w²F²/p of both techniques, and of wF of each.
+/// Integrals of one strategy at one point, from one group of draws: of w²F²/p of both techniques,
+/// and of wF of each.
 struct Integrals {
     double square = 0, light = 0, bsdf = 0;
 };
@@ -32,37 +36,50 @@ struct Seen {
     LightHit nearest;
     double luminance = 0;  ///< Y(f cos θ L) of the nearest, 0 where a surface is nearer
     double bsdf_pdf = 0;
-    Vec3<double> wi{0};              ///< in the shading frame
-    std::vector<Cap<double>> caps;   ///< of hits
+    Vec3<double> wi{0};             ///< in the shading frame
+    std::vector<Cap<double>> caps;  ///< of hits
 };
 
 /// One point and all that is prepared for it.
 class Auditor {
 public:
-    Auditor(const LitScene& scene, std::span<const Strategy> strategies) : scene_(scene), strategies_(strategies)
+    Auditor(const LitScene& scene, std::span<const Strategy> strategies)
+        : scene_(scene), strategies_(strategies)
     {
         // A mixture that reaches every light whatever is compared.
         std::set<std::string> names{"uniform", "power"};
         for (const Strategy& s : strategies)
             if (s.chooses_light()) names.insert(s.policy);
-        for (const std::string& name : names) policies_.emplace(name, ScalarPolicy(name, scene.scene().lights));
+        for (const std::string& name : names)
+            policies_.emplace(name, ScalarPolicy(name, scene.scene().lights));
         for (const Strategy& s : strategies)
-            heuristics_.push_back(s.chooses_light() ? scalar_heuristic(s.heuristic) : ScalarHeuristic{});
+            heuristics_.push_back(s.chooses_light() ? scalar_heuristic(s.heuristic)
+                                                    : ScalarHeuristic{});
         for (const Strategy& s : strategies) techniques_.push_back(scalar_technique(s.technique));
-        for (const Material& material : scene.scene().materials) bsdfs_.push_back(scalar_bsdf(material));
+        for (const Material& material : scene.scene().materials)
+            bsdfs_.push_back(scalar_bsdf(material));
     }
 
-    /// [strategy] of group `group`.
-    std::vector<Integrals> integrals(const AuditPoint& at, std::size_t group, std::uint64_t seed)
+    /// [group][strategy], each group the mean of `repeats` draws of every technique of the mixture.
+    std::vector<std::vector<Integrals>> integrals(const AuditPoint& at, std::size_t repeats,
+                                                  std::uint64_t seed)
     {
         begin(at);
-        std::vector<Integrals> sums(strategies_.size());
-        std::uint32_t draw = static_cast<std::uint32_t>(group) * 1024;
-        for (auto& [name, policy] : policies_)
-            if (!policy.draws_every_light()) take(sums, light_direction(name, draw++, seed));
-        take(sums, bsdf_direction(true, draw++, seed));
-        take(sums, bsdf_direction(false, draw++, seed));
-        return sums;
+        std::vector<std::vector<Integrals>> found(groups,
+                                                  std::vector<Integrals>(strategies_.size()));
+        std::uint32_t draw = 0;
+        for (std::vector<Integrals>& sums : found) {
+            for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+                for (auto& [name, policy] : policies_)
+                    if (!policy.draws_every_light())
+                        take(sums, light_direction(name, draw++, seed));
+                take(sums, bsdf_direction(true, draw++, seed));
+                take(sums, bsdf_direction(false, draw++, seed));
+            }
+            const double n = static_cast<double>(repeats);
+            for (Integrals& sum : sums) sum = {sum.square / n, sum.light / n, sum.bsdf / n};
+        }
+        return found;
     }
 
 private:
@@ -77,7 +94,8 @@ private:
     }
 
     /// A direction from the cone of a light that the policy chooses, or 0 where it can choose none.
-    Vec3<double> light_direction(const std::string& policy, std::uint32_t draw, std::uint64_t seed) const
+    Vec3<double> light_direction(const std::string& policy, std::uint32_t draw,
+                                 std::uint64_t seed) const
     {
         const Words words = random_words(seed, {point_.id, first_sample, draw}, Block::light);
         const Choice choice = tables_.at(policy).choose(choice_bits(words));
@@ -92,7 +110,8 @@ private:
         const Words words = random_words(seed, {point_.id, first_sample, draw}, Block::bsdf);
         const Vec2<double> u{unit_number<double>(words[2]), unit_number<double>(words[3])};
         if (by_bsdf && !bsdf_->draws) return Vec3<double>(0);
-        const Vec3<double> local = by_bsdf ? bsdf_->sample(wo_, unit_number<double>(words[1]), u) : sample_cosine(u);
+        const Vec3<double> local =
+            by_bsdf ? bsdf_->sample(wo_, unit_number<double>(words[1]), u) : sample_cosine(u);
         return local.z > 0 ? frame_.to_world(local) : Vec3<double>(0);
     }
 
@@ -113,10 +132,12 @@ private:
         const BsdfValue<double> value = bsdf_->evaluate(wo_, local);
         seen.bsdf_pdf = value.pdf;
         seen.wi = local;
-        const Vec3<double> light = radiance(scene_.scene().lights[static_cast<std::size_t>(seen.nearest.light)]);
+        const Vec3<double> light =
+            radiance(scene_.scene().lights[static_cast<std::size_t>(seen.nearest.light)]);
         seen.luminance = luminance(Vec3<double>(value.f * light)) * local.z;
         if (seen.luminance > 0 && scene_.surfaces() != nullptr) {
-            const ShadowRay ray{point_.ray_origin, vec_cast<float>(wi), static_cast<float>(seen.nearest.distance)};
+            const ShadowRay ray{point_.ray_origin, vec_cast<float>(wi),
+                                static_cast<float>(seen.nearest.distance)};
             std::uint8_t hidden = 0;
             scene_.surfaces()->occluded({&ray, 1}, {&hidden, 1});
             if (hidden != 0) seen.luminance = 0;
@@ -124,14 +145,17 @@ private:
         return seen;
     }
 
-    /// Of a light technique, at the direction seen: of the nearest light alone, or summed over all lights there.
-    double light_density(const std::string& policy, const ScalarTechnique& technique, bool sums, const Seen& seen) const
+    /// Of a light technique, at the direction seen: of the nearest light alone, or summed over all
+    /// lights there.
+    double light_density(const std::string& policy, const ScalarTechnique& technique, bool sums,
+                         const Seen& seen) const
     {
         double density = 0;
         const ScalarPolicy::Table& table = tables_.at(policy);
         for (std::size_t i = 0; i < seen.hits.size(); ++i)
             if (sums || seen.hits[i].light == seen.nearest.light)
-                density += table.probability(seen.hits[i].light) * technique.light_pdf(seen.caps[i], frame_.z, seen.wi.z);
+                density += table.probability(seen.hits[i].light) *
+                           technique.light_pdf(seen.caps[i], frame_.z, seen.wi.z);
         return density;
     }
 
@@ -157,7 +181,8 @@ private:
             return;
         }
         const bool one_sample = strategy.model == Model::one_sample;
-        const double l = one_sample ? 0.5 : strategy.counts[0], b = one_sample ? 0.5 : strategy.counts[1];
+        const double l = one_sample ? 0.5 : strategy.counts[0],
+                     b = one_sample ? 0.5 : strategy.counts[1];
         const double light_pdf =
             light_density(strategy.policy, techniques_[s], techniques_[s].sums_lights, seen);
         const std::array<double, 2> density{l * light_pdf, b * seen.bsdf_pdf};
@@ -183,7 +208,8 @@ private:
     std::map<std::string, ScalarPolicy::Table> tables_;
 };
 
-/// The square of an expectation, unbiased, from independent values: all pairs of different ones. `left_out` is skipped.
+/// The square of an expectation, unbiased, from independent values: all pairs of different ones.
+/// `left_out` is skipped.
 template <class Value> double squared_mean(std::size_t left_out, const Value& value)
 {
     double sum = 0, squares = 0, n = 0;
@@ -195,40 +221,48 @@ template <class Value> double squared_mean(std::size_t left_out, const Value& va
 }
 
 /// The variance of one sample at one point, from all groups but one.
-double variance_without(std::size_t left_out, const Strategy& s, const std::array<Integrals, groups>& g)
+double variance_without(std::size_t left_out, const Strategy& s,
+                        const std::array<Integrals, groups>& g)
 {
     double square = 0, n = 0;
     for (std::size_t i = 0; i < groups; ++i)
         if (i != left_out) square += g[i].square, ++n;
     square /= n;
-    if (!s.chooses_light()) return square - squared_mean(left_out, [&](std::size_t i) { return g[i].bsdf; });
+    if (!s.chooses_light())
+        return square - squared_mean(left_out, [&](std::size_t i) { return g[i].bsdf; });
     if (s.model == Model::one_sample)
-        return square - squared_mean(left_out, [&](std::size_t i) { return g[i].light + g[i].bsdf; });
-    const double light = squared_mean(left_out, [&](std::size_t i) { return g[i].light; }) / s.counts[0];
+        return square -
+               squared_mean(left_out, [&](std::size_t i) { return g[i].light + g[i].bsdf; });
+    const double light =
+        squared_mean(left_out, [&](std::size_t i) { return g[i].light; }) / s.counts[0];
     const double bsdf =
-        s.counts[1] > 0 ? squared_mean(left_out, [&](std::size_t i) { return g[i].bsdf; }) / s.counts[1] : 0;
+        s.counts[1] > 0
+            ? squared_mean(left_out, [&](std::size_t i) { return g[i].bsdf; }) / s.counts[1]
+            : 0;
     return square - light - bsdf;
 }
 
 }  // namespace
 
 std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoint> points,
-                                 std::span<const Strategy> strategies, std::uint64_t seed, const AnyExecutor& executor)
+                                 std::span<const Strategy> strategies, std::uint64_t seed,
+                                 const AnyExecutor& executor)
 {
     std::vector<AuditEstimate> estimates(strategies.size());
     if (points.empty()) return estimates;
     // [part][strategy][left out]; one part per task, added in order.
+    const std::size_t repeats = std::max<std::size_t>(1, fewest_looks / points.size());
     const std::size_t parts = std::min<std::size_t>(points.size(), 64);
     std::vector<std::vector<std::array<double, groups + 1>>> sums(parts);
     executor.for_each(parts, [&](std::size_t part) {
         Auditor auditor(scene, strategies);
         sums[part].resize(strategies.size());
         for (std::size_t p = part; p < points.size(); p += parts) {
+            const std::vector<std::vector<Integrals>> drawn =
+                auditor.integrals(points[p], repeats, seed);
             std::vector<std::array<Integrals, groups>> found(strategies.size());
-            for (std::size_t g = 0; g < groups; ++g) {
-                const std::vector<Integrals> one = auditor.integrals(points[p], g, seed);
-                for (std::size_t s = 0; s < strategies.size(); ++s) found[s][g] = one[s];
-            }
+            for (std::size_t g = 0; g < groups; ++g)
+                for (std::size_t s = 0; s < strategies.size(); ++s) found[s][g] = drawn[g][s];
             for (std::size_t s = 0; s < strategies.size(); ++s)
                 for (std::size_t g = 0; g <= groups; ++g)
                     sums[part][s][g] += variance_without(g, strategies[s], found[s]);
@@ -241,8 +275,10 @@ std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoi
         for (std::size_t part = 0; part < parts; ++part)
             for (std::size_t g = 0; g <= groups; ++g) total[g] += sums[part][s][g] / n;
         double spread = 0;  // jackknife: (K − 1)/K Σ (v₋g − v)²
-        for (std::size_t g = 0; g < groups; ++g) spread += (total[g] - total[groups]) * (total[g] - total[groups]);
-        estimates[s] = {true, std::max(total[groups], 0.0), std::sqrt(spread * (groups - 1) / groups)};
+        for (std::size_t g = 0; g < groups; ++g)
+            spread += (total[g] - total[groups]) * (total[g] - total[groups]);
+        estimates[s] = {true, std::max(total[groups], 0.0),
+                        std::sqrt(spread * (groups - 1) / groups)};
     }
     return estimates;
 }

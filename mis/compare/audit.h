@@ -16,17 +16,19 @@ struct AuditPoint {
     int material;
 };
 
-/// What directions drawn by *all* techniques at hand say about one strategy's variance at some points: a strategy's own
-/// samples cannot see what they never drew.
+/// What directions drawn by *all* techniques at hand say about one strategy's variance at some
+/// points: a strategy's own samples cannot see what they never drew.
 struct AuditEstimate {
-    bool available = false;      ///< not for a policy that draws every light: it misses none
+    bool available = false;  ///< not for a policy that draws every light: it misses none
     double variance = 0, variance_se = 0;  ///< of one sample, mean over the points
 };
 
-/// Draws directions from the cones of every policy and from the BSDFs, together a mixture that covers what any of the
-/// strategies can meet, and estimates ∫w²F²/p − (∫wF)² of each strategy from the same directions (docs/theory.md,
-/// "Audit"). In double, one point at a time, through formulas that the pipelines do not run.
+/// Draws directions from the cones of every policy and from the BSDFs, together a mixture that
+/// covers what any of the strategies can meet, and estimates ∫w²F²/p − (∫wF)² of each strategy from
+/// the same directions (docs/theory.md, "Audit"). In double, one point at a time, through formulas
+/// that the pipelines do not run.
 std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoint> points,
-                                 std::span<const Strategy> strategies, std::uint64_t seed, const AnyExecutor& executor);
+                                 std::span<const Strategy> strategies, std::uint64_t seed,
+                                 const AnyExecutor& executor);
 
 }  // namespace mis

@@ -77,16 +77,16 @@ public:
     {
     }
 
-    /// The strategy's worst level against the trusted others, corrected for the number of tests.
-    Test worst_test(std::size_t s) const
+    /// The strategy's levels against the trusted others, corrected for the number of tests.
+    std::vector<Test> tests_of(std::size_t s) const
     {
-        Test worst;
+        std::vector<Test> tests;
+        const double count = static_cast<double>(levels_.size() * strategies_.size());
         for (std::size_t level = 0; level < levels_.size(); ++level) {
-            const Test test = tested(s, level);
-            if (test.is_worse_than(worst)) worst = test;
+            tests.push_back(tested(s, level));
+            tests.back().p = std::min(1.0, tests.back().p * count);
         }
-        worst.p = std::min(1.0, worst.p * static_cast<double>(levels_.size() * strategies_.size()));
-        return worst;
+        return tests;
     }
 
     bool trusts(std::size_t s) const { return trusted_[s]; }
@@ -159,21 +159,45 @@ private:
     std::vector<char> trusted_;
 };
 
-std::string in_words(const Test& test, bool audited)
+std::string in_words(const Test& test, std::size_t regions)
 {
-    const std::string where = test.region < 0 ? "" : " in region " + std::to_string(test.region);
-    const char* side = test.difference > 0 ? " above" : " below";
-    std::string text = "its mean" + where + " is " +
-                       (test.reference != 0 ? percent(std::fabs(test.difference / test.reference))
-                                            : number(std::fabs(test.difference))) +
-                       side + " what the others agree on (p = " + number(test.p, 1) +
-                       ", corrected)";
-    if (test.difference < 0 && !audited)
-        text += "; no audit was possible, so it may also lack rare samples";
-    return text;
+    const std::string where = test.region < 0 ? ""
+                                              : " in region " + std::to_string(test.region) +
+                                                    " of " + std::to_string(regions);
+    return "its mean" + where + " is " +
+           (test.reference != 0 ? percent(std::fabs(test.difference / test.reference))
+                                : number(std::fabs(test.difference))) +
+           (test.difference > 0 ? " above" : " below") +
+           " what the others agree on (p = " + number(test.p, 1) + ", corrected)";
+}
+
+const Test& worst_of(const std::vector<Test>& tests)
+{
+    return *std::min_element(tests.begin(), tests.end(),
+                             [](const Test& a, const Test& b) { return a.is_worse_than(b); });
+}
+
+BiasFinding finding_of(const std::vector<Test>& tests, double error)
+{
+    const Test& worst = worst_of(tests);
+    BiasFinding finding{true, true, true, worst.p, in_words(worst, tests.size() - 1)};
+    for (const Test& test : tests) {
+        if (test.p >= error) continue;
+        if (test.difference > 0) finding.too_low = false;
+        if (test.region < 0) finding.only_in_regions = false;
+    }
+    return finding;
 }
 
 }  // namespace
+
+bool may_lack_rare_samples(const BiasFinding& finding, const StrategyMeasurements& strategy)
+{
+    if (!finding.biased || !finding.too_low || strategy.all_samples_equal_reference) return false;
+    const double carried_by = strategy.pooled.participation.number();
+    return finding.only_in_regions ||
+           (!strategy.audit.available && carried_by < least_participation_without_audit);
+}
 
 std::vector<BiasFinding> find_bias(std::span<const StrategyMeasurements* const> strategies,
                                    double error)
@@ -185,21 +209,23 @@ std::vector<BiasFinding> find_bias(std::span<const StrategyMeasurements* const> 
         replicates = std::min(replicates, s->replicates.size());
     BiasSearch search(strategies, replicates);
     while (search.trusted_count() > 1) {
-        std::size_t worst = strategies.size();
-        std::vector<Test> tests(strategies.size());
+        std::vector<std::size_t> trusted;
+        std::vector<std::vector<Test>> tests(strategies.size());
         for (std::size_t s = 0; s < strategies.size(); ++s) {
             if (!search.trusts(s)) continue;
-            tests[s] = search.worst_test(s);
-            findings[s].p_value = tests[s].p;
-            if (worst == strategies.size() || tests[s].is_worse_than(tests[worst])) worst = s;
+            trusted.push_back(s);
+            tests[s] = search.tests_of(s);
+            findings[s].p_value = worst_of(tests[s]).p;
         }
-        if (tests[worst].p >= error) break;
-        const bool last_two = search.trusted_count() == 2;
-        for (std::size_t s = 0; s < strategies.size(); ++s) {
-            if (!search.trusts(s) || (s != worst && !last_two)) continue;
-            findings[s].biased = true;
-            findings[s].too_low = tests[s].difference < 0;
-            findings[s].reason = in_words(tests[s], strategies[s]->audit.available);
+        const std::size_t worst =
+            *std::min_element(trusted.begin(), trusted.end(), [&](std::size_t a, std::size_t b) {
+                return worst_of(tests[a]).is_worse_than(worst_of(tests[b]));
+            });
+        if (findings[worst].p_value >= error) break;
+        const bool last_two = trusted.size() == 2;
+        for (const std::size_t s : trusted) {
+            if (s != worst && !last_two) continue;
+            findings[s] = finding_of(tests[s], error);
             if (last_two)
                 findings[s].reason +=
                     "; only two are left, and nothing says which of them is right";

@@ -11,18 +11,22 @@ namespace mis {
 /// How one strategy's mean stands against the others'.
 struct BiasFinding {
     bool biased = false;
-    bool too_low = false;  ///< below the others, where biased
+    bool too_low = false;          ///< below the others wherever it differs, where biased
+    bool only_in_regions = false;  ///< and not over the whole image, where biased
     double p_value = 1;  ///< corrected for all strategies and regions; 1 if nothing could be tested
-    std::string reason;  ///< in words, where biased
+    std::string reason = {};  ///< in words, where biased
 };
 
 /// A region is tested where so many samples carry the variance of each of the means compared there.
 inline constexpr double least_region_participation = 30;
 
-/// Below this participation a mean that is too low does not make a strategy biased unless an audit
-/// was made: the missing light may be in rare samples that were never drawn. Such a strategy is not
-/// resolved, and says so.
+/// A mean that is too low may lack rare samples that were never drawn; then it is not resolved
+/// rather than biased. So it may be where no audit was made and fewer samples than this carry the
+/// variance; and where it is low in some regions alone, as the audit is of the whole image, which a
+/// dark corner hardly changes. What is too high, or low over the whole image past an audit, lacks
+/// nothing: it is biased.
 inline constexpr double least_participation_without_audit = 1000;
+bool may_lack_rare_samples(const BiasFinding& finding, const StrategyMeasurements& strategy);
 
 /// Tests the mean of each of `strategies` (all resolved), over the image and in each region,
 /// against a reference pooled from the others. Strategies share random numbers, so the standard

@@ -17,7 +17,8 @@ void count_lights(Explanation& found, const Lights& lights)
     for (const Light& light : lights) {
         const double power = luminance_radius(light) * light.radius * 4 * square(pi<double>);
         found.black_lights += power > 0 ? 0 : 1;
-        found.radius = {std::min(found.radius.low, light.radius), std::max(found.radius.high, light.radius)};
+        found.radius = {std::min(found.radius.low, light.radius),
+                        std::max(found.radius.high, light.radius)};
         found.power = {std::min(found.power.low, power), std::max(found.power.high, power)};
     }
 }
@@ -27,7 +28,8 @@ void count_surfaces(Explanation& found, const std::vector<Surface>& surfaces)
     for (const Surface& surface : surfaces) {
         found.quads += std::holds_alternative<Quad>(surface.shape) ? 1 : 0;
         found.spheres += std::holds_alternative<SphereSurface>(surface.shape) ? 1 : 0;
-        if (const auto* mesh = std::get_if<Mesh>(&surface.shape)) ++found.meshes, found.triangles += mesh->triangles.size();
+        if (const auto* mesh = std::get_if<Mesh>(&surface.shape))
+            ++found.meshes, found.triangles += mesh->triangles.size();
     }
 }
 
@@ -51,7 +53,8 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
     found.name = scene.name;
     count_lights(found, scene.lights);
     count_surfaces(found, scene.surfaces);
-    for (const Material& material : scene.materials) found.materials.push_back({material.name, material.type, 0});
+    for (const Material& material : scene.materials)
+        found.materials.push_back({material.name, material.type, 0});
     if (scene.camera) {
         found.width = scene.camera->resolution[0];
         found.height = scene.camera->resolution[1];

@@ -23,8 +23,8 @@ struct MaterialUse {
 struct Explanation {
     std::string file, name;
     std::size_t lights = 0, black_lights = 0;
-    Range radius;      ///< of the lights, scene units
-    Range power;       ///< luminous, W: Y(L)·4π²r²
+    Range radius;  ///< of the lights, scene units
+    Range power;   ///< luminous, W: Y(L)·4π²r²
     std::size_t quads = 0, spheres = 0, meshes = 0, triangles = 0;
     int width = 0, height = 0;  ///< 0 without a camera
     std::size_t shading_points = 0, dark_points = 0, background_pixels = 0, tiles = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace mis {
 namespace {
@@ -18,16 +19,27 @@ LogEstimate log_median(const std::vector<double>& seconds)
             linear.se / linear.value, linear.dof};
 }
 
+using Seconds = std::vector<double> Figures::*;
+
 /// Logarithm of the ratio of the medians; its error from the rounds that both took part in, which a
-/// drifting machine disturbed alike.
-LogEstimate log_median_ratio(const std::vector<double>& a, const std::vector<double>& b)
+/// drifting machine disturbed alike. Of fewer than six rounds, from the noise that all strategies
+/// share, if it is known.
+LogEstimate log_median_ratio(const Figures& a, const Figures& b, Seconds seconds)
 {
+    const std::vector<double>&of_a = a.*seconds, &of_b = b.*seconds;
     std::vector<double> logs;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        if (a[i] > 0 && b[i] > 0)
-            logs.push_back(std::log(a[i] / b[i]));  // a coarse clock may say 0
+    for (std::size_t i = 0; i < std::min(of_a.size(), of_b.size()); ++i)
+        if (of_a[i] > 0 && of_b[i] > 0)
+            logs.push_back(std::log(of_a[i] / of_b[i]));  // a coarse clock may say 0
+    const double n = static_cast<double>(logs.size());
     LogEstimate paired = median(std::move(logs));
-    paired.value = log_median(a).value - log_median(b).value;
+    paired.value = log_median(of_a).value - log_median(of_b).value;
+    if (n >= 2 && n < 6 && a.time_noise_dof > 0) {
+        const double of_a_median =
+            n > 2 ? std::sqrt(0.5 * std::numbers::pi) : 1;  // against a mean, at most
+        paired.se = of_a_median * std::hypot(a.time_noise, b.time_noise) / std::sqrt(n);
+        paired.dof = a.time_noise_dof;
+    }
     return paired;
 }
 
@@ -103,6 +115,40 @@ Figures figures_of(const StrategyMeasurements& s, double at)
     return f;
 }
 
+void share_time_noise(std::span<Figures> figures)
+{
+    std::vector<Figures*> timed;
+    std::size_t rounds = std::numeric_limits<std::size_t>::max();
+    for (Figures& f : figures) {
+        const bool is_positive =
+            std::all_of(f.seconds_at.begin(), f.seconds_at.end(), [](double s) { return s > 0; });
+        if (f.seconds_at.size() < 2 || !is_positive) continue;
+        timed.push_back(&f);
+        rounds = std::min(rounds, f.seconds_at.size());
+    }
+    if (timed.size() < 2) return;
+    const double strategies = static_cast<double>(timed.size()), n = static_cast<double>(rounds);
+    std::vector<double> of_round(rounds, 0.0), of_strategy;
+    for (const Figures* f : timed) {
+        double sum = 0;
+        for (std::size_t i = 0; i < rounds; ++i) {
+            of_round[i] += std::log(f->seconds_at[i]) / strategies;
+            sum += std::log(f->seconds_at[i]) / n;
+        }
+        of_strategy.push_back(sum);
+    }
+    const double mean = mean_and_error(of_round).mean, dof = (strategies - 1) * (n - 1);
+    double squares = 0;
+    for (std::size_t s = 0; s < timed.size(); ++s)
+        for (std::size_t i = 0; i < rounds; ++i)
+            squares += std::pow(
+                std::log(timed[s]->seconds_at[i]) - of_round[i] - of_strategy[s] + mean, 2);
+    for (Figures* f : timed) {
+        f->time_noise = std::sqrt(squares / dof);
+        f->time_noise_dof = dof;
+    }
+}
+
 LogEstimate log_variance_ratio(const Figures& a, const Figures& b)
 {
     if (a.exact || b.exact) return {a.exact && b.exact ? 0 : a.exact ? -infinity : infinity, 0, 1};
@@ -116,7 +162,7 @@ LogEstimate log_variance_ratio(const Figures& a, const Figures& b)
 LogEstimate log_cost_ratio(const Figures& a, const Figures& b)
 {
     const LogEstimate variance = log_variance_ratio(a, b),
-                      seconds = log_median_ratio(a.seconds_at, b.seconds_at);
+                      seconds = log_median_ratio(a, b, &Figures::seconds_at);
     if (std::isnan(seconds.value)) return seconds;
     return std::isinf(variance.value) ? variance : product(variance, seconds);
 }
@@ -127,7 +173,7 @@ LogEstimate log_time_ratio(const Figures& a, const Figures& b)
     LogEstimate samples = log_contrast(std::span(a.relative_variances).first(n), a.sampling_share,
                                        std::span(b.relative_variances).first(n), b.sampling_share);
     samples.value = 0;  // is in the seconds already
-    return product(samples, log_median_ratio(a.seconds_to_1_percent, b.seconds_to_1_percent));
+    return product(samples, log_median_ratio(a, b, &Figures::seconds_to_1_percent));
 }
 
 StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, std::size_t points,

@@ -64,6 +64,11 @@ struct Audit {
     bool available = false;
     double variance_from_others = 0, variance_from_others_se = 0;
     double own_variance = 0, own_variance_se = 0;
+    /// The same of the relative variance (each point's divided by its μ² + ε²): what dark places
+    /// hide from the above.
+    bool relative_available = false;
+    double relative_variance_from_others = 0, relative_variance_from_others_se = 0;
+    double own_relative_variance = 0, own_relative_variance_se = 0;
 };
 
 /// All that was measured of one strategy on one scene.

@@ -46,11 +46,10 @@ void set_states(std::vector<StrategyReport>& reports, const SceneMeasurements& s
         StrategyReport& report = reports[index[k]];
         report.bias_p_value = findings[k].p_value;
         if (!findings[k].biased) continue;
-        const bool may_lack_rare_samples =
-            findings[k].too_low && !resolved[k]->audit.available && !report.exact &&
-            report.effective_samples < least_participation_without_audit;
-        exclude(report, may_lack_rare_samples ? Status::not_resolved : Status::biased,
-                findings[k].reason);
+        if (may_lack_rare_samples(findings[k], *resolved[k]))
+            exclude(report, Status::not_resolved,
+                    findings[k].reason + ": it is biased, or lacks rare samples there");
+        else exclude(report, Status::biased, findings[k].reason);
         report.exact = false;
     }
 }
@@ -143,6 +142,7 @@ Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
         ranking.strategies.push_back(report_of(s, figures.back(), scene.points, options.threads));
         if (s.was_run) replicates = std::min(replicates, static_cast<int>(s.replicates.size()));
     }
+    share_time_noise(figures);
     ranking.replicates = replicates == std::numeric_limits<int>::max() ? 0 : replicates;
     set_states(ranking.strategies, scene, options.bias_error * share_of(options.look));
 

@@ -10,7 +10,8 @@
 
 namespace mis {
 
-/// A figure and its 95 % interval. low and high are NaN where no interval is known; all three where there is no figure.
+/// A figure and its 95 % interval. low and high are NaN where no interval is known; all three where
+/// there is no figure.
 struct Interval {
     double value = 0, low = 0, high = 0;
 };
@@ -28,47 +29,49 @@ struct PointFigures {
 struct StrategyReport {
     Strategy strategy;
     Status status = Status::not_run;
-    std::string reason;             ///< in words, for every status but ranked
-    bool exact = false;             ///< zero variance, proved
+    std::string reason;                         ///< in words, for every status but ranked
+    bool exact = false;                         ///< zero variance, proved
     int rank = 0, rank_low = 0, rank_high = 0;  ///< by variance; 0 where not ranked
     int rank_by_efficiency = 0, rank_by_efficiency_low = 0, rank_by_efficiency_high = 0;
-    std::vector<std::string> tied_with;     ///< names, by variance
-    std::uint64_t samples = 0;              ///< over all shading points
-    double mean = 0, mean_se = 0;           ///< luminance, over the shading points
-    Interval variance;                      ///< of one sample; mean over the shading points
-    Interval relative_variance;             ///< design §1
-    Interval seconds_per_point;             ///< CPU time to prepare one shading point
-    Interval seconds_per_sample;            ///< CPU time
+    std::vector<std::string> tied_with;           ///< names, by variance
+    std::uint64_t samples = 0;                    ///< over all shading points
+    double mean = 0, mean_se = 0;                 ///< luminance, over the shading points
+    Interval variance;                            ///< of one sample; mean over the shading points
+    Interval relative_variance;                   ///< design §1
+    Interval seconds_per_point;                   ///< CPU time to prepare one shading point
+    Interval seconds_per_sample;                  ///< CPU time
     std::map<std::string, double> stage_seconds;  ///< per sample
     double rays_per_sample = 0;
-    Interval efficiency;                    ///< 1/(luminance²·s); infinite where exact
-    Interval seconds_to_1_percent;          ///< wall time on the stated threads
-    double estimated_seconds = 0;           ///< CPU time that it would take: for not_run
-    double bias_p_value = 1;                ///< against the reference pooled from the others, corrected
-    double rare_share = 0;                  ///< share of the variance at points where rare samples carry it (pool.cpp)
-    double effective_samples = 0;           ///< how many samples carry the variance (measurements.h, Participation)
+    Interval efficiency;            ///< 1/(luminance²·s); infinite where exact
+    Interval seconds_to_1_percent;  ///< wall time on the stated threads
+    double estimated_seconds = 0;   ///< CPU time that it would take: for not_run
+    double bias_p_value = 1;        ///< against the reference pooled from the others, corrected
+    double rare_share =
+        0;  ///< share of the variance at points where rare samples carry it (pool.cpp)
+    double effective_samples =
+        0;  ///< how many samples carry the variance (measurements.h, Participation)
     std::uint64_t invalid_samples = 0;
     std::vector<PointFigures> probes;
 };
 
-/// How two strategies stand: a's figure over b's. The verdicts of one kind hold for all pairs together (95 %), the
-/// intervals for each pair alone.
+/// How two strategies stand: a's figure over b's. The verdicts of one kind hold for all pairs
+/// together (95 %), the intervals for each pair alone.
 enum class Verdict { apart, tied, undecided };
 struct PairReport {
-    int a = 0, b = 0;        ///< indices into SceneReport::strategies; a has the lower variance
-    Interval ratio;          ///< of the variances; 0 where a alone is exact
+    int a = 0, b = 0;  ///< indices into SceneReport::strategies; a has the lower variance
+    Interval ratio;    ///< of the variances; 0 where a alone is exact
     Verdict verdict = Verdict::undecided;
     double more_replicates = 0;  ///< about how many more would decide it; for undecided
     Interval efficiency_ratio;   ///< of the efficiencies; infinite where a alone is exact
     Verdict efficiency_verdict = Verdict::undecided;
-    Interval time_ratio;     ///< of the times to 1 %: how many times sooner b reaches it
+    Interval time_ratio;  ///< of the times to 1 %: how many times sooner b reaches it
     Verdict time_verdict = Verdict::undecided;
 };
 
 struct EffectReport {
     std::string name;
     bool on = true;
-    double share = 1;   ///< of the tiles where it is on
+    double share = 1;  ///< of the tiles where it is on
     std::string why;
     double saved_rays_per_sample = 0, saved_seconds_per_sample = 0;
 };
@@ -76,23 +79,26 @@ struct EffectReport {
 struct SceneReport {
     std::string file, name;
     std::size_t lights = 0, surfaces = 0, triangles = 0;
-    int width = 0, height = 0;       ///< 0 without a camera
+    int width = 0, height = 0;  ///< 0 without a camera
     std::size_t shading_points = 0, background_pixels = 0;
     int replicates = 0;
-    double epsilon = 0;              ///< of the relative variance
+    double epsilon = 0;  ///< of the relative variance
     bool settled = false, partial = false;
-    double seconds = 0;              ///< wall
+    double seconds = 0;  ///< wall
     std::vector<EffectReport> effects;
     std::vector<StrategyReport> strategies;  ///< in the order asked for
     std::vector<PairReport> pairs;           ///< of ranked strategies
 };
 
-/// One strategy over all scenes (overall.h): geometric means of its figures over the best one's of each scene.
+/// One strategy over all scenes (overall.h): geometric means of its figures over the best one's of
+/// each scene.
 struct OverallReport {
     std::string name;
     int rank = 0, rank_by_efficiency = 0;
-    Interval variance_ratio, cost_ratio, time_ratio;  ///< ≥ 1; cost: variance × time, 1/efficiency; time: to 1 %
-    int beaten_by_exact = 0;  ///< scenes on which others are exact and it is not; there the first two are over the best inexact
+    Interval variance_ratio, cost_ratio,
+        time_ratio;           ///< ≥ 1; cost: variance × time, 1/efficiency; time: to 1 %
+    int beaten_by_exact = 0;  ///< scenes on which others are exact and it is not; there the first
+                              ///< two are over the best inexact
 };
 
 struct Report {

@@ -13,14 +13,41 @@ namespace {
 /// squared mean.
 constexpr double rounding = 1e-6;
 
-bool audit_fails(const StrategyMeasurements& s)
+/// One figure, as the other strategies' samples have it and as a strategy's own have it.
+struct Check {
+    const char* what;
+    double from_others, from_others_se, own, own_se;
+    double zero;  ///< below this it is rounding
+
+    double at_least() const { return from_others - audit_errors * from_others_se; }
+    bool fails() const
+    {
+        return at_least() > std::max(audit_factor * (own + audit_errors * own_se), zero);
+    }
+    std::string in_words() const
+    {
+        return std::string("the other strategies' samples find a ") + what + " of at least " +
+               number(at_least(), 2) + " where its own saw " + number(own, 2) +
+               ": it has not drawn the rare samples that matter";
+    }
+};
+
+/// What the audit has against it; empty if nothing, or if there was none.
+std::string audit_fault(const StrategyMeasurements& s)
 {
-    const Audit& audit = s.audit;
-    if (!audit.available) return false;
-    const double at_least =
-        audit.variance_from_others - audit_errors * audit.variance_from_others_se;
-    const double at_most = audit.own_variance + audit_errors * audit.own_variance_se;
-    return at_least > std::max(audit_factor * at_most, rounding * s.pooled.mean * s.pooled.mean);
+    const Audit& a = s.audit;
+    const Check plain{
+        "variance",     a.variance_from_others, a.variance_from_others_se,
+        a.own_variance, a.own_variance_se,      rounding * s.pooled.mean * s.pooled.mean};
+    const Check relative{"relative variance",
+                         a.relative_variance_from_others,
+                         a.relative_variance_from_others_se,
+                         a.own_relative_variance,
+                         a.own_relative_variance_se,
+                         rounding};
+    if (a.available && plain.fails()) return plain.in_words();
+    if (a.relative_available && relative.fails()) return relative.in_words();
+    return "";
 }
 
 std::string carried_by_few(const Participation& participation, std::uint64_t samples,
@@ -28,7 +55,11 @@ std::string carried_by_few(const Participation& participation, std::uint64_t sam
 {
     return std::string("its ") + what + " is carried by about " + count(participation.number()) +
            " of " + count(static_cast<double>(samples)) + " samples; " +
-           count(least_participation) + " are needed";
+           count(least_participation) + " are needed" +
+           (participation.number() > 0
+                ? ", about " + number(least_participation / participation.number(), 2) +
+                      " times as many samples as now"
+                : "");
 }
 
 /// Relative standard error of one of the replicates' figures.
@@ -44,12 +75,7 @@ double relative_error(const StrategyMeasurements& s, double ReplicateValues::*fi
 std::string why_not_resolved(const StrategyMeasurements& s)
 {
     const PooledFigures& pooled = s.pooled;
-    if (audit_fails(s))
-        return "the other strategies' samples find a variance of at least " +
-               number(s.audit.variance_from_others - audit_errors * s.audit.variance_from_others_se,
-                      2) +
-               " where its own saw " + number(s.audit.own_variance, 2) +
-               ": it has not drawn the rare samples that matter";
+    if (std::string fault = audit_fault(s); !fault.empty()) return fault;
     if (s.all_samples_equal_reference) return "";
     if (s.replicates.size() < 2) return "its error takes at least two replicates";
     if (!std::isfinite(pooled.variance) || !std::isfinite(pooled.mean))

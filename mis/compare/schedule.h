@@ -6,12 +6,14 @@
 
 namespace mis {
 
-/// The samples that every point gets in one round, per replicate, are as many as it takes to have some tens of rounds
-/// in all: strategies alternate in small rounds, so that a drifting machine touches all alike.
+/// The samples that every point gets in one round, per replicate, are as many as it takes to have
+/// some tens of rounds in all: strategies alternate in small rounds, so that a drifting machine
+/// touches all alike.
 struct Plan {
     int replicates = 16;
-    std::vector<int> chunks;  ///< samples per replicate, round by round; for a fixed number of samples
-    int remainder = 0;        ///< samples per point that do not divide among the replicates
+    std::vector<int>
+        chunks;         ///< samples per replicate, round by round; for a fixed number of samples
+    int remainder = 0;  ///< samples per point that do not divide among the replicates
 };
 
 /// For a fixed number of samples per point: 16 replicates, or as many as have two samples each.
@@ -30,8 +32,8 @@ inline Plan plan_for(std::uint64_t spp)
     return plan;
 }
 
-/// The next round's samples per replicate where time is the limit. seconds_left: wall; round_seconds: of one sample
-/// per replicate of all strategies. 0: no round of two samples fits.
+/// The next round's samples per replicate where time is the limit. seconds_left: wall;
+/// round_seconds: of one sample per replicate of all strategies. 0: no round of two samples fits.
 inline int next_chunk(int rounds_so_far, double seconds_left, double round_seconds)
 {
     const int wanted = rounds_so_far < 3 ? 2 : rounds_so_far < 6 ? 4 : rounds_so_far < 9 ? 8 : 16;

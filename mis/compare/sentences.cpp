@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
+#include <utility>
 
 namespace mis {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_undecided = 5;  // pairs named; the rest is a number
 
 class SceneWords {
@@ -21,7 +23,6 @@ public:
     std::vector<std::string> all()
     {
         say_verdict();
-        say_least_variance();
         say_exact();
         say_ties();
         say_undecided();
@@ -52,43 +53,50 @@ private:
         return p->b == i ? p->time_ratio : turned_over(p->time_ratio);
     }
 
-    bool are_timed() const
+    /// Wall seconds to 1 %; infinite where it is not ranked or not known.
+    double seconds(int i) const
     {
-        return std::any_of(scene_.strategies.begin(), scene_.strategies.end(),
-                           [](const StrategyReport& s) { return s.rank_by_efficiency == 1; });
+        const double seconds = of(i).seconds_to_1_percent.value;
+        return of(i).status == Status::ranked && !std::isnan(seconds) ? seconds : infinity;
     }
 
-    /// The first in rank, by efficiency if times were taken.
-    std::optional<int> best() const
+    /// Ranked strategies from the soonest to the last, without times by variance.
+    std::vector<int> in_order() const
     {
+        std::vector<int> order;
         for (int i = 0; i < count(); ++i)
-            if ((are_timed() ? of(i).rank_by_efficiency : of(i).rank) == 1) return i;
-        return std::nullopt;
+            if (of(i).status == Status::ranked) order.push_back(i);
+        std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+            return std::pair(seconds(a), of(a).rank) < std::pair(seconds(b), of(b).rank);
+        });
+        return order;
     }
 
-    /// What the best is measured against in the verdict.
-    std::vector<int> alternatives(int best) const
+    bool is_timed(int i) const { return std::isfinite(seconds(i)); }
+
+    /// What the best is measured against in the verdict: the next that is surely behind, and what
+    /// is commonly used.
+    std::vector<int> alternatives(const std::vector<int>& order) const
     {
         std::vector<int> found;
-        for (const char* usual : {"uniform/power", "power/power", "brdf"})
-            for (int i = 0; i < count(); ++i)
-                if (i != best && of(i).status == Status::ranked && name(i) == usual)
-                    found.push_back(i);
-        if (!found.empty()) return found;
-        for (int i = 0; i < count(); ++i)
-            if (i != best && of(i).rank_by_efficiency > 0 &&
-                (found.empty() || of(i).rank_by_efficiency < of(found[0]).rank_by_efficiency))
-                found.assign(1, i);
+        for (std::size_t k = 1; k < order.size(); ++k) {
+            const std::string is = name(order[k]);
+            const PairReport* p = pair(order[0], order[k]);
+            const bool is_next = found.empty() && p && p->time_verdict == Verdict::apart;
+            if (is_next || is == "uniform/power" || is == "power/power" || is == "brdf")
+                found.push_back(order[k]);
+        }
         return found;
     }
 
-    /// Ranked strategies that stand to `best` like this, by efficiency (by variance without times).
+    /// Ranked strategies that stand to `best` like this, in time to 1 % (in variance without
+    /// times).
     std::vector<std::string> standing(int best, Verdict verdict) const
     {
         std::vector<std::string> names;
         for (const PairReport& p : scene_.pairs) {
             if (p.a != best && p.b != best) continue;
-            if ((are_timed() ? p.efficiency_verdict : p.verdict) == verdict)
+            if ((is_timed(best) ? p.time_verdict : p.verdict) == verdict)
                 names.push_back(name(p.a == best ? p.b : p.a));
         }
         return names;
@@ -96,34 +104,32 @@ private:
 
     void say_verdict()
     {
-        const std::optional<int> first = best();
-        if (!first) return say("No strategy could be ranked on this scene");
-        const int b = *first;
+        const std::vector<int> order = in_order();
+        if (order.empty()) return say("No strategy could be ranked on this scene");
+        const int best = order[0];
         std::vector<std::string> gains;
-        if (are_timed())
-            for (const int i : alternatives(b))
-                if (const Interval gain = sooner(b, i); gain.value > 1)
-                    gains.push_back(with_error(gain) + " times sooner than " + name(i));
-        std::string verdict = "Use " + name(b);
-        if (!gains.empty()) verdict += ": it reaches 1 % error " + listed(gains);
-        else if (are_timed()) verdict += ": it is the most efficient";
-        else verdict += ": it has the least variance per sample (no times were taken)";
-        if (const double seconds = of(b).seconds_to_1_percent.value; std::isfinite(seconds))
-            verdict += " (in " + duration(seconds) + " on " + std::to_string(threads_) +
-                       (threads_ == 1 ? " thread)" : " threads)");
+        for (const int i : alternatives(order))
+            if (is_timed(i) && sooner(best, i).value > 1)
+                gains.push_back(with_error(sooner(best, i)) + " times sooner than " + name(i));
+        std::string verdict = "Use " + name(best);
+        if (!is_timed(best))
+            verdict += ": it has the least variance per sample (no times were taken)";
+        else
+            verdict += ": it reaches 1 % error " + (gains.empty() ? "" : listed(gains) + " (") +
+                       "in " + duration(seconds(best)) + " on " + std::to_string(threads_) +
+                       (threads_ == 1 ? " thread" : " threads") + (gains.empty() ? "" : ")");
         say(verdict);
-        say_how_sure(b);
-        say_soonest(b);
+        say_how_sure(best);
+        say_most_efficient(best);
+        say_least_variance(best);
     }
 
-    void say_how_sure(int b)
+    void say_how_sure(int best)
     {
-        const auto tied = standing(b, Verdict::tied), undecided = standing(b, Verdict::undecided);
-        const char* what = are_timed() ? "efficiency" : "variance";
-        if (scene_.pairs.empty())
-            return say(
-                "It is the only one that could be ranked, so its mean was not tested against "
-                "another's");
+        const auto tied = standing(best, Verdict::tied),
+                   undecided = standing(best, Verdict::undecided);
+        const char* what = is_timed(best) ? "time to 1 % error" : "variance";
+        if (scene_.pairs.empty()) return say("It is the only one that could be ranked");
         if (tied.empty() && undecided.empty())
             return say(std::string("It is sure to lead in ") + what +
                        " (95 %, all pairs together)");
@@ -134,33 +140,32 @@ private:
             say("Not yet sure: " + listed(undecided) + " may be as good, or better, in " + what);
     }
 
-    /// Efficiency weighs bright places most; time to 1 % relative error weighs all alike. Where
-    /// they disagree, say so.
-    void say_soonest(int b)
+    /// Time to 1 % relative error weighs all places alike; efficiency weighs bright ones most.
+    /// Where they disagree, say so.
+    void say_most_efficient(int best)
     {
-        int soonest = b;
-        for (int i = 0; i < count(); ++i)
-            if (of(i).status == Status::ranked &&
-                of(i).seconds_to_1_percent.value < of(soonest).seconds_to_1_percent.value)
-                soonest = i;
-        const PairReport* p = soonest == b ? nullptr : pair(b, soonest);
-        if (p && p->time_verdict == Verdict::apart)
-            say("Where dark places count as much as bright ones, use " + name(soonest) +
-                ": it reaches 1 % relative error " + with_error(sooner(soonest, b)) +
-                " times sooner than " + name(b));
+        for (int i = 0; i < count(); ++i) {
+            const PairReport* p =
+                of(i).rank_by_efficiency == 1 && i != best ? pair(i, best) : nullptr;
+            if (!p || p->efficiency_verdict != Verdict::apart) continue;
+            const Interval gain =
+                p->a == i ? p->efficiency_ratio : turned_over(p->efficiency_ratio);
+            say("Where only bright places matter, use " + name(i) + ": by plain variance it is " +
+                (std::isfinite(gain.value) ? with_error(gain) + " times " : "infinitely ") +
+                "more efficient than " + name(best));
+            return;
+        }
     }
 
-    void say_least_variance()
+    void say_least_variance(int best)
     {
-        const std::optional<int> first = best();
         for (int i = 0; i < count(); ++i) {
-            if (of(i).rank != 1 || !first || i == *first || of(i).exact) continue;
-            const PairReport* p = pair(i, *first);
-            if (!p || p->verdict != Verdict::apart) return;
-            const double cost =
-                of(i).seconds_per_sample.value / of(*first).seconds_per_sample.value;
+            const PairReport* p =
+                of(i).rank == 1 && i != best && !of(i).exact ? pair(i, best) : nullptr;
+            if (!p || p->verdict != Verdict::apart) continue;
+            const double cost = of(i).seconds_per_sample.value / of(best).seconds_per_sample.value;
             say("Per sample " + name(i) + " has the least variance, " +
-                with_error(turned_over(p->ratio)) + " times less than " + name(*first) +
+                with_error(turned_over(p->ratio)) + " times less than " + name(best) +
                 (cost > 1 ? ", but its sample costs " + number(cost, 2) + " times as much" : ""));
             return;
         }
@@ -184,6 +189,15 @@ private:
                     percent(margin_) + " (ratio " + with_error(p.ratio) + ")");
     }
 
+    /// "290 more replicates (19 times as many samples)".
+    std::string replicates(double more) const
+    {
+        const std::string text = number(more, 2) + " more replicates";
+        return scene_.replicates < 1 ? text
+                                     : text + " (" + number(1 + more / scene_.replicates, 2) +
+                                           " times as many samples)";
+    }
+
     void say_undecided()
     {
         std::size_t undecided = 0;
@@ -192,7 +206,7 @@ private:
             say(name(p.a) + " and " + name(p.b) + " are undecided in variance (ratio " +
                 with_error(p.ratio) + ")" +
                 (std::isfinite(p.more_replicates)
-                     ? ": about " + number(p.more_replicates, 2) + " more replicates would decide"
+                     ? ": about " + replicates(p.more_replicates) + " would decide"
                      : ""));
         }
         if (undecided > most_undecided)

@@ -7,15 +7,18 @@
 
 namespace mis {
 
-StrategyRun::StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy, std::uint64_t seed)
-    : points_(&points), ready_(scene, strategy, kernels<float>(), seed), results_(points.shading.points.size()),
-      tiles_(points.shading.tiles.size())
+StrategyRun::StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
+                         std::uint64_t seed)
+    : points_(&points), ready_(scene, strategy, kernels<float>(), seed),
+      results_(points.shading.points.size()), tiles_(points.shading.tiles.size())
 {
 }
 
-std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int chunks, std::span<const double> weights,
+std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int chunks,
+                                               std::span<const double> weights,
                                                std::vector<std::vector<ChunkTotals>>& totals,
-                                               WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+                                               WorkspacePool<float>& workspaces,
+                                               const AnyExecutor& executor)
 {
     const GBuffer& shading = points_->shading;
     std::vector<TileTotals> costs(shading.tiles.size());
@@ -24,10 +27,11 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
         const Tile& tile = shading.tiles[t];
         const SampleRange range{tiles_[t].samples_per_point, allocation[t], chunks};
         workspaces.with([&](Workspace<float>& workspace) {
-            costs[t] = workspace.run(ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
-                                     ready_.pipeline(tile.material), range,
-                                     std::span(results_).subspan(tile.first, tile.count),
-                                     weights.empty() ? weights : weights.subspan(tile.first, tile.count), totals[t]);
+            costs[t] = workspace.run(
+                ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
+                ready_.pipeline(tile.material), range,
+                std::span(results_).subspan(tile.first, tile.count),
+                weights.empty() ? weights : weights.subspan(tile.first, tile.count), totals[t]);
         });
         tiles_[t].samples_per_point += static_cast<std::uint64_t>(range.samples());
         tiles_[t].cost.add(costs[t]);
@@ -36,11 +40,13 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
     return costs;
 }
 
-void StrategyRun::sample_round(const Allocation& allocation, int replicates, std::span<const double> weights,
-                               WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+void StrategyRun::sample_round(const Allocation& allocation, int replicates,
+                               std::span<const double> weights, WorkspacePool<float>& workspaces,
+                               const AnyExecutor& executor)
 {
     std::vector<std::vector<ChunkTotals>> totals;
-    const std::vector<TileTotals> costs = run_tiles(allocation, replicates, weights, totals, workspaces, executor);
+    const std::vector<TileTotals> costs =
+        run_tiles(allocation, replicates, weights, totals, workspaces, executor);
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         TileSums& tile = tiles_[t];
         tile.replicates.resize(static_cast<std::size_t>(replicates));
@@ -56,7 +62,8 @@ void StrategyRun::sample_round(const Allocation& allocation, int replicates, std
     times_.push_back(observed(costs));
 }
 
-void StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+void StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces,
+                               const AnyExecutor& executor)
 {
     std::vector<std::vector<ChunkTotals>> totals;
     run_tiles(Allocation(tiles_.size(), count), 1, {}, totals, workspaces, executor);
@@ -64,7 +71,10 @@ void StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces, cons
 
 namespace {
 
-double prepare_seconds(const TileTotals& t) { return t.stage_seconds[static_cast<std::size_t>(StageKind::prepare)]; }
+double prepare_seconds(const TileTotals& t)
+{
+    return t.stage_seconds[static_cast<std::size_t>(StageKind::prepare)];
+}
 
 }  // namespace
 
@@ -75,14 +85,16 @@ TimeObservation StrategyRun::observed(std::span<const TileTotals> totals) const
     for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
         const double points = points_->shading.tiles[t].count;
         const double prepare = prepare_seconds(totals[t]);
-        sum.seconds_per_sample += points * (totals[t].seconds - prepare) / static_cast<double>(totals[t].samples);
+        sum.seconds_per_sample +=
+            points * (totals[t].seconds - prepare) / static_cast<double>(totals[t].samples);
         sum.seconds_per_point += prepare;
     }
     const double lit = static_cast<double>(points_->figure_lit);
     return {sum.seconds_per_sample / lit, sum.seconds_per_point / lit};
 }
 
-TimeObservation StrategyRun::try_out(int samples, std::size_t points, WorkspacePool<float>& workspaces) const
+TimeObservation StrategyRun::try_out(int samples, std::size_t points,
+                                     WorkspacePool<float>& workspaces) const
 {
     TileTotals totals;
     std::size_t tried = 0;
@@ -92,13 +104,16 @@ TimeObservation StrategyRun::try_out(int samples, std::size_t points, WorkspaceP
             const Tile& tile = points_->shading.tiles[k * tiles / 4];
             const std::size_t count = std::min<std::size_t>(tile.count, points / 4 + 1);
             std::vector<PointResult> results(count);
-            totals.add(workspace.run(ready_.job(tile, std::span(points_->shading.points).subspan(tile.first, count)),
-                                     ready_.pipeline(tile.material), {std::uint64_t{1} << 40, samples, 1}, results, {}, {}));
+            totals.add(workspace.run(
+                ready_.job(tile, std::span(points_->shading.points).subspan(tile.first, count)),
+                ready_.pipeline(tile.material), {std::uint64_t{1} << 40, samples, 1}, results, {},
+                {}));
             tried += count;
         }
     });
     const double prepare = prepare_seconds(totals);
-    return {(totals.seconds - prepare) / static_cast<double>(std::max<std::uint64_t>(totals.samples, 1)),
+    return {(totals.seconds - prepare) /
+                static_cast<double>(std::max<std::uint64_t>(totals.samples, 1)),
             prepare / static_cast<double>(std::max<std::size_t>(tried, 1))};
 }
 
@@ -114,7 +129,9 @@ StrategyMeasurements StrategyRun::measurements(std::span<const double> scale) co
     const auto figures = std::span<const Moments>(moments).first(points_->figure_lit);
 
     m.pooled = pool_points(figures, scale.first(points_->figure_lit));
-    const double lit = points_->figure_points == 0 ? 0 : double(points_->figure_lit) / double(points_->figure_points);
+    const double lit = points_->figure_points == 0
+                           ? 0
+                           : double(points_->figure_lit) / double(points_->figure_points);
     m.pooled.mean *= lit;  // dark points have mean and variance 0
     m.pooled.variance *= lit;
     m.pooled.relative_variance *= lit;
@@ -144,7 +161,8 @@ void StrategyRun::add_replicates(StrategyMeasurements& m) const
         for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
             const TileSums& tile = tiles_[t];
             const double mean = tile.replicates[r].mean / tile.mean_weight;
-            const double per_degree = tile.variance_weight > 0 ? 1 / (tile.variance_weight * points) : 0;
+            const double per_degree =
+                tile.variance_weight > 0 ? 1 / (tile.variance_weight * points) : 0;
             values.mean += mean / points;
             values.variance += tile.replicates[r].variance * per_degree;
             values.relative_variance += tile.replicates[r].relative_variance * per_degree;
@@ -165,11 +183,12 @@ void StrategyRun::add_costs(StrategyMeasurements& m) const
         m.invalid_samples += cost.invalid;
         if (cost.samples == 0) continue;
         const double share = static_cast<double>(points_->shading.tiles[t].count) /
-                             static_cast<double>(points_->figure_lit) * static_cast<double>(samples_) /
-                             static_cast<double>(cost.samples);
+                             static_cast<double>(points_->figure_lit) *
+                             static_cast<double>(samples_) / static_cast<double>(cost.samples);
         rays += share * static_cast<double>(cost.shadow_rays);
         for (std::size_t k = 0; k < stage_names.size(); ++k)
-            if (cost.stage_seconds[k] > 0) m.stage_seconds[std::string(stage_names[k])] += share * cost.stage_seconds[k];
+            if (cost.stage_seconds[k] > 0)
+                m.stage_seconds[std::string(stage_names[k])] += share * cost.stage_seconds[k];
     }
     m.rays = static_cast<std::uint64_t>(std::llround(rays));
 }

@@ -12,21 +12,27 @@ namespace mis {
 /// Samples per replicate and point that a round takes, tile by tile.
 using Allocation = std::vector<int>;
 
-/// One strategy under way: all that its samples came to so far. Results do not depend on who ran which tile.
+/// One strategy under way: all that its samples came to so far. Results do not depend on who ran
+/// which tile.
 class StrategyRun {
 public:
-    StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy, std::uint64_t seed);
+    StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
+                std::uint64_t seed);
 
-    /// The next samples of every point: allocation[tile] for each of `replicates`. weights: 1/(μ² + ε²) of every point.
-    /// The time is an observation; every observation is of the same mix of points, however unevenly tiles are sampled.
+    /// The next samples of every point: allocation[tile] for each of `replicates`. weights: 1/(μ² +
+    /// ε²) of every point. The time is an observation; every observation is of the same mix of
+    /// points, however unevenly tiles are sampled.
     void sample_round(const Allocation& allocation, int replicates, std::span<const double> weights,
                       WorkspacePool<float>& workspaces, const AnyExecutor& executor);
 
-    /// The next samples of every point, `count` of them, outside the replicates: they count in the points' moments alone.
+    /// The next samples of every point, `count` of them, outside the replicates: they count in the
+    /// points' moments alone.
     void sample_apart(int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor);
 
-    /// CPU seconds per sample and per point's preparation, from `samples` at a few points; leaves no trace.
-    TimeObservation try_out(int samples, std::size_t points, WorkspacePool<float>& workspaces) const;
+    /// CPU seconds per sample and per point's preparation, from `samples` at a few points; leaves
+    /// no trace.
+    TimeObservation try_out(int samples, std::size_t points,
+                            WorkspacePool<float>& workspaces) const;
 
     const Strategy& strategy() const { return ready_.strategy(); }
     std::uint64_t samples() const { return samples_; }  ///< over all shading points
@@ -43,8 +49,10 @@ private:
         TileTotals cost;
         std::uint64_t samples_per_point = 0;
     };
-    std::vector<TileTotals> run_tiles(const Allocation& allocation, int chunks, std::span<const double> weights,
-                                      std::vector<std::vector<ChunkTotals>>& totals, WorkspacePool<float>& workspaces,
+    std::vector<TileTotals> run_tiles(const Allocation& allocation, int chunks,
+                                      std::span<const double> weights,
+                                      std::vector<std::vector<ChunkTotals>>& totals,
+                                      WorkspacePool<float>& workspaces,
                                       const AnyExecutor& executor);
     TimeObservation observed(std::span<const TileTotals> totals) const;
     void add_replicates(StrategyMeasurements& m) const;

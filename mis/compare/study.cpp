@@ -13,21 +13,25 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 std::size_t triangles_of(const Scene& scene)
 {
     std::size_t triangles = 0;
     for (const Surface& surface : scene.surfaces)
-        if (const auto* mesh = std::get_if<Mesh>(&surface.shape)) triangles += mesh->triangles.size();
+        if (const auto* mesh = std::get_if<Mesh>(&surface.shape))
+            triangles += mesh->triangles.size();
     return triangles;
 }
 
 /// One study under way.
 class Scheduler {
 public:
-    Scheduler(const LitScene& scene, const std::vector<Strategy>& strategies, const StudyOptions& options,
-              const AnyExecutor& executor)
+    Scheduler(const LitScene& scene, const std::vector<Strategy>& strategies,
+              const StudyOptions& options, const AnyExecutor& executor)
         : scene_(scene), strategies_(strategies), options_(options), executor_(executor),
           reasons_(strategies.size()), estimates_(strategies.size())
     {
@@ -46,7 +50,10 @@ public:
     }
 
 private:
-    double budget() const { return options_.seconds.value_or(options_.error ? 1e7 : options_.default_seconds); }
+    double budget() const
+    {
+        return options_.seconds.value_or(options_.error ? 1e7 : options_.default_seconds);
+    }
     bool is_stopped() const { return options_.stop != nullptr && *options_.stop; }
     std::size_t points() const { return study_.points->figure_lit; }
 
@@ -64,15 +71,18 @@ private:
         report.shading_points = study_.points->figure_points;
         report.background_pixels = study_.points->shading.background.size();
         for (const EffectPlan& plan : explained(scene, scene_.effects()))
-            report.effects.push_back({.name = plan.name, .on = plan.on, .share = plan.on ? 1.0 : 0.0, .why = plan.why});
+            report.effects.push_back(
+                {.name = plan.name, .on = plan.on, .share = plan.on ? 1.0 : 0.0, .why = plan.why});
     }
 
-    /// What a first look at the costs allows; a rough picture of the scene, for the weights; and the audit.
+    /// What a first look at the costs allows; a rough picture of the scene, for the weights; and
+    /// the audit.
     void start_runs()
     {
         if (points() == 0) {
             for (std::size_t s = 0; s < strategies_.size(); ++s)
-                study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s], options_.seed);
+                study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points,
+                                                               strategies_[s], options_.seed);
             return;
         }
         choose_by_cost();
@@ -81,16 +91,22 @@ private:
         run_audit();
     }
 
-    /// CPU seconds that a first round of a strategy takes, without running it: a floor under its cost.
+    /// CPU seconds that a first round of a strategy takes, without running it: a floor under its
+    /// cost.
     double least_seconds(const Strategy& strategy) const
     {
-        const double lights = static_cast<double>(scene_.scene().lights.size()), n = static_cast<double>(points());
+        const double lights = static_cast<double>(scene_.scene().lights.size()),
+                     n = static_cast<double>(points());
         if (!strategy.chooses_light()) return 0;
         if (draws_every_light(strategy.policy)) return n * lights * first_samples() * 10e-9;
         return looks_at_point(strategy.policy) ? n * lights * 0.5e-9 : 0;
     }
 
-    int first_samples() const { return options_.spp ? static_cast<int>(std::min<std::uint64_t>(*options_.spp, 1 << 30)) : 32; }
+    int first_samples() const
+    {
+        return options_.spp ? static_cast<int>(std::min<std::uint64_t>(*options_.spp, 1 << 30))
+                            : 32;
+    }
 
     void choose_by_cost()
     {
@@ -99,12 +115,16 @@ private:
         for (std::size_t s = 0; s < strategies_.size(); ++s) {
             estimates_[s] = least_seconds(strategies_[s]);
             if (estimates_[s] <= cpu) {
-                study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s], options_.seed);
-                if (!options_.spp) estimates_[s] = std::max(estimates_[s], tried_out(*study_.runs[s]));
+                study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points,
+                                                               strategies_[s], options_.seed);
+                if (!options_.spp)
+                    estimates_[s] = std::max(estimates_[s], tried_out(*study_.runs[s]));
             }
             order.push_back(s);
         }
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return estimates_[a] < estimates_[b]; });
+        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return estimates_[a] < estimates_[b];
+        });
         double sum = 0;
         for (const std::size_t s : order) {
             sum += estimates_[s];
@@ -116,19 +136,24 @@ private:
 
     double tried_out(const StrategyRun& run)
     {
-        TimeObservation cost = run.try_out(1, 4, workspaces_);  // the first touch of memory is no cost of the strategy
+        TimeObservation cost =
+            run.try_out(1, 4, workspaces_);  // the first touch of memory is no cost of the strategy
         if (cost.seconds_per_sample < 1e-3) cost = run.try_out(8, 32, workspaces_);
-        return static_cast<double>(points()) * (first_samples() * cost.seconds_per_sample + cost.seconds_per_point);
+        return static_cast<double>(points()) *
+               (first_samples() * cost.seconds_per_sample + cost.seconds_per_point);
     }
 
-    /// A rough picture of the scene, from samples that count for nothing else: weights for the replicates' relative
-    /// variances and, where time is the limit, how the samples are best spread over the tiles.
+    /// A rough picture of the scene, from samples that count for nothing else: weights for the
+    /// replicates' relative variances and, where time is the limit, how the samples are best spread
+    /// over the tiles.
     void make_pilot()
     {
         constexpr int pilot_samples = 8;
         std::vector<double> benefit(study_.points->figure_tiles);
-        const bool is_small = static_cast<double>(scene_.scene().lights.size()) * static_cast<double>(points()) < 1e8;
-        const Strategy rough = parse_strategy(is_small ? "radiant-solid-angle/power" : "power/power");
+        const bool is_small =
+            static_cast<double>(scene_.scene().lights.size()) * static_cast<double>(points()) < 1e8;
+        const Strategy rough =
+            parse_strategy(is_small ? "radiant-solid-angle/power" : "power/power");
         StrategyRun pilot(scene_, *study_.points, rough, ~options_.seed);
         pilot.sample_apart(pilot_samples, workspaces_, executor_);
         std::vector<double> means;
@@ -138,7 +163,8 @@ private:
         tile_factors_.assign(study_.points->shading.tiles.size(), 1);
         if (options_.spp) return;
         for (std::size_t s = 0; s < strategies_.size(); ++s)
-            if (study_.runs[s] && estimates_[s] < 0.05 * budget() * executor_.threads && !is_stopped()) {
+            if (study_.runs[s] && estimates_[s] < 0.05 * budget() * executor_.threads &&
+                !is_stopped()) {
                 StrategyRun one(scene_, *study_.points, strategies_[s], ~options_.seed);
                 one.sample_apart(pilot_samples, workspaces_, executor_);
                 add_benefit(benefit, one);
@@ -146,7 +172,8 @@ private:
         spread_over_tiles(benefit);
     }
 
-    /// What a tile adds to the squared relative error of a strategy's variance, per sample: Σ μ4 over V².
+    /// What a tile adds to the squared relative error of a strategy's variance, per sample: Σ μ4
+    /// over V².
     void add_benefit(std::vector<double>& benefit, const StrategyRun& run) const
     {
         std::vector<double> fourth(benefit.size());
@@ -159,11 +186,13 @@ private:
             }
         }
         if (!(variance > 0)) return;
-        for (std::size_t t = 0; t < benefit.size(); ++t) benefit[t] += fourth[t] / (variance * variance);
+        for (std::size_t t = 0; t < benefit.size(); ++t)
+            benefit[t] += fourth[t] / (variance * variance);
     }
 
-    /// Samples in proportion to √(benefit per point), between half and eight times the mean: stratified sampling
-    /// (Neyman 1934). The pilot's samples count for nothing else, so no figure is biased by it.
+    /// Samples in proportion to √(benefit per point), between half and eight times the mean:
+    /// stratified sampling (Neyman 1934). The pilot's samples count for nothing else, so no figure
+    /// is biased by it.
     void spread_over_tiles(const std::vector<double>& benefit)
     {
         double mean = 0;
@@ -174,7 +203,8 @@ private:
             mean += wanted[t] * count / static_cast<double>(points());
         }
         if (!(mean > 0)) return;
-        for (std::size_t t = 0; t < benefit.size(); ++t) tile_factors_[t] = std::clamp(wanted[t] / mean, 0.5, 8.0);
+        for (std::size_t t = 0; t < benefit.size(); ++t)
+            tile_factors_[t] = std::clamp(wanted[t] / mean, 0.5, 8.0);
     }
 
     /// `chunk` samples per replicate in the mean, at least two.
@@ -182,7 +212,8 @@ private:
     {
         Allocation allocation;
         for (const double factor : tile_factors_)
-            allocation.push_back(options_.spp ? chunk : std::max(2, static_cast<int>(std::lround(factor * chunk))));
+            allocation.push_back(
+                options_.spp ? chunk : std::max(2, static_cast<int>(std::lround(factor * chunk))));
         return allocation;
     }
 
@@ -191,8 +222,9 @@ private:
     {
         double sum = 0;
         for (std::size_t p = 0; p < points(); ++p) sum += means[p];
-        const double epsilon =
-            scene_.scene().camera ? 0.01 * sum / static_cast<double>(study_.points->figure_points) : 0;
+        const double epsilon = scene_.scene().camera
+                                   ? 0.01 * sum / static_cast<double>(study_.points->figure_points)
+                                   : 0;
         study_.report.epsilon = epsilon;
         std::vector<double> scale;
         for (const double mean : means) scale.push_back(mean * mean + epsilon * epsilon);
@@ -202,15 +234,19 @@ private:
     void run_audit()
     {
         std::size_t prepared = 1;
-        for (const Strategy& s : strategies_) prepared += s.chooses_light() && looks_at_point(s.policy) ? 1 : 0;
-        const std::size_t affordable = 50'000'000 / (prepared * scene_.scene().lights.size() + 1) + 4;
+        for (const Strategy& s : strategies_)
+            prepared += s.chooses_light() && looks_at_point(s.policy) ? 1 : 0;
+        const std::size_t affordable =
+            50'000'000 / (prepared * scene_.scene().lights.size() + 1) + 4;
         audited_ = spread_points(*study_.points, std::min<std::size_t>(1024, affordable));
         std::vector<AuditPoint> at;
-        for (const std::size_t p : audited_) at.push_back({study_.points->shading.points[p], material_of(p)});
+        for (const std::size_t p : audited_)
+            at.push_back({study_.points->shading.points[p], material_of(p)});
         std::vector<Strategy> run;
         for (std::size_t s = 0; s < strategies_.size(); ++s)
             if (study_.runs[s]) run.push_back(strategies_[s]);
-        const std::vector<AuditEstimate> estimates = audit(scene_, at, run, options_.seed, executor_);
+        const std::vector<AuditEstimate> estimates =
+            audit(scene_, at, run, options_.seed, executor_);
         audit_.resize(strategies_.size());
         for (std::size_t s = 0, k = 0; s < strategies_.size(); ++s)
             if (study_.runs[s]) audit_[s] = estimates[k++];
@@ -219,21 +255,25 @@ private:
     int material_of(std::size_t point) const
     {
         const std::vector<Tile>& tiles = study_.points->shading.tiles;
-        const auto after = std::upper_bound(tiles.begin(), tiles.end(), point,
-                                            [](std::size_t p, const Tile& tile) { return p < tile.first; });
+        const auto after =
+            std::upper_bound(tiles.begin(), tiles.end(), point,
+                             [](std::size_t p, const Tile& tile) { return p < tile.first; });
         return std::prev(after)->material;
     }
 
-    /// One round: every strategy in turn, in random order. False: stopped before the first strategy.
+    /// One round: every strategy in turn, in random order. False: stopped before the first
+    /// strategy.
     void round(int chunk)
     {
         const Allocation allocation = allocation_of(chunk);
-        const std::vector<std::size_t> order = round_order(strategies_.size(), options_.seed, rounds_++);
+        const std::vector<std::size_t> order =
+            round_order(strategies_.size(), options_.seed, rounds_++);
         std::size_t done = 0;
         for (const std::size_t s : order) {
             if (is_stopped()) return;
             if (study_.runs[s])
-                study_.runs[s]->sample_round(allocation, plan_.replicates, weights_, workspaces_, executor_);
+                study_.runs[s]->sample_round(allocation, plan_.replicates, weights_, workspaces_,
+                                             executor_);
             show_progress(static_cast<double>(++done) / static_cast<double>(order.size()));
         }
     }
@@ -242,7 +282,8 @@ private:
     {
         if (!options_.progress) return;
         const double rounds = static_cast<double>(plan_.chunks.size());
-        const double done = options_.spp ? (rounds_ - 1 + of_round) / rounds : seconds_since(start_) / budget();
+        const double done =
+            options_.spp ? (rounds_ - 1 + of_round) / rounds : seconds_since(start_) / budget();
         options_.progress(done, study_.report);
     }
 
@@ -256,7 +297,8 @@ private:
         }
         if (plan_.remainder > 0)
             for (auto& run : study_.runs)
-                if (run && !is_stopped()) run->sample_apart(plan_.remainder, workspaces_, executor_);
+                if (run && !is_stopped())
+                    run->sample_apart(plan_.remainder, workspaces_, executor_);
     }
 
     void run_time()
@@ -265,7 +307,8 @@ private:
         double samples = 0, last_look = 0, sampling_seconds = 0;
         while (!is_stopped()) {
             const double round_seconds = samples > 0 ? sampling_seconds / samples : 0;
-            const int chunk = next_chunk(static_cast<int>(rounds_), budget() - seconds_since(start_), round_seconds);
+            const int chunk = next_chunk(static_cast<int>(rounds_),
+                                         budget() - seconds_since(start_), round_seconds);
             if (chunk == 0) return;
             const Clock::time_point before = Clock::now();
             round(chunk);
@@ -286,7 +329,8 @@ private:
         for (const StrategyReport& s : study_.report.strategies) {
             if (s.status != Status::ranked) continue;
             any = true;
-            if (s.variance.value > 0 && !(s.variance.high - s.variance.low <= 2 * *options_.error * s.variance.value))
+            if (s.variance.value > 0 &&
+                !(s.variance.high - s.variance.low <= 2 * *options_.error * s.variance.value))
                 return false;
         }
         return any;
@@ -308,7 +352,8 @@ private:
             const double floor = 1e-12 * (mean / n) * (mean / n) + 1e-300;
             const double weight = static_cast<double>(run->samples()) / (variance / n + floor);
             weights += weight;
-            for (std::size_t p = 0; p < sums.size(); ++p) sums[p] += weight * run->results()[p].luminance.mean;
+            for (std::size_t p = 0; p < sums.size(); ++p)
+                sums[p] += weight * run->results()[p].luminance.mean;
         }
         for (double& sum : sums) sum = weights > 0 ? sum / weights : 0;
         return sums;
@@ -318,8 +363,10 @@ private:
     {
         const std::vector<double> scale = scale_of(pooled_means());
         SceneMeasurements scene{study_.points->figure_points, {}};
-        for (std::size_t s = 0; s < strategies_.size(); ++s) scene.strategies.push_back(measured(s, scale));
-        Ranking ranking = rank(scene, {.threads = executor_.threads, .at = options_.at, .look = look});
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            scene.strategies.push_back(measured(s, scale));
+        Ranking ranking =
+            rank(scene, {.threads = executor_.threads, .at = options_.at, .look = look});
         study_.report.strategies = std::move(ranking.strategies);
         study_.report.pairs = std::move(ranking.pairs);
         study_.report.settled = ranking.settled;
@@ -362,12 +409,15 @@ private:
             squares += moments.variance_se() * moments.variance_se();
         }
         const double n = static_cast<double>(audited_.size());
-        m.audit = {true, audit_[s].variance, audit_[s].variance_se, sum / n, std::sqrt(squares) / n};
+        m.audit = {true, audit_[s].variance, audit_[s].variance_se, sum / n,
+                   std::sqrt(squares) / n};
     }
 
     void finish()
     {
-        rank_now(options_.spp || look_ == 0 ? 0 : study_.report.settled && !options_.seconds ? look_ : look_ + 1);
+        rank_now(options_.spp || look_ == 0                   ? 0
+                 : study_.report.settled && !options_.seconds ? look_
+                                                              : look_ + 1);
         study_.report.partial = is_stopped();
     }
 
@@ -389,16 +439,18 @@ private:
 
 }  // namespace
 
-Study run_study(const LitScene& scene, const std::vector<Strategy>& strategies, const StudyOptions& options,
-                const AnyExecutor& executor)
+Study run_study(const LitScene& scene, const std::vector<Strategy>& strategies,
+                const StudyOptions& options, const AnyExecutor& executor)
 {
     return Scheduler(scene, strategies, options, executor).run();
 }
 
 std::size_t study_bytes(std::size_t points, std::size_t strategies)
 {
-    // A shading point, its weight and scale, a mean; for each strategy its results, and one copy of its moments at a time.
-    return points * (sizeof(ShadingPoint) + 4 * sizeof(double) + strategies * sizeof(PointResult) + sizeof(Moments));
+    // A shading point, its weight and scale, a mean; for each strategy its results, and one copy of
+    // its moments at a time.
+    return points * (sizeof(ShadingPoint) + 4 * sizeof(double) + strategies * sizeof(PointResult) +
+                     sizeof(Moments));
 }
 
 }  // namespace mis

@@ -13,7 +13,7 @@ namespace mis {
 
 struct StudyOptions {
     std::uint64_t seed = 1;
-    double at = 16;               ///< samples per point that the efficiency is for
+    double at = 16;                    ///< samples per point that the efficiency is for
     std::optional<std::uint64_t> spp;  ///< so many samples per point, for every strategy
     std::optional<double> seconds;     ///< so much wall time
     std::optional<double> error;       ///< until every ranked variance is known to ± this share
@@ -30,8 +30,8 @@ struct Study {
 };
 
 /// Samples the strategies in small alternating rounds and ranks them, until it is time to stop.
-Study run_study(const LitScene& scene, const std::vector<Strategy>& strategies, const StudyOptions& options,
-                const AnyExecutor& executor);
+Study run_study(const LitScene& scene, const std::vector<Strategy>& strategies,
+                const StudyOptions& options, const AnyExecutor& executor);
 
 /// The memory that a study of so many points and strategies takes, bytes.
 std::size_t study_bytes(std::size_t points, std::size_t strategies);

@@ -7,19 +7,21 @@
 
 namespace mis {
 
-/// The shading points of a study: those that its figures are over, then probes that are listed apart.
+/// The shading points of a study: those that its figures are over, then probes that are listed
+/// apart.
 struct StudyPoints {
-    GBuffer shading;               ///< all of them, in tiles
-    std::size_t figure_tiles = 0;  ///< the first tiles, that the figures are over
-    std::size_t figure_lit = 0;    ///< points in those tiles
-    std::size_t figure_points = 0; ///< with the dark ones
+    GBuffer shading;                        ///< all of them, in tiles
+    std::size_t figure_tiles = 0;           ///< the first tiles, that the figures are over
+    std::size_t figure_lit = 0;             ///< points in those tiles
+    std::size_t figure_points = 0;          ///< with the dark ones
     std::vector<std::int64_t> probe_point;  ///< [probe]: its point, or −1 where it is dark
-    std::size_t regions = 0;       ///< of the image, for the bias test
+    std::size_t regions = 0;                ///< of the image, for the bias test
 
     std::size_t region_of(std::size_t tile) const { return tile * regions / figure_tiles; }
 };
 
-/// Camera and probes; the figures are over the camera's points, or without a camera over the probes (design §2).
+/// Camera and probes; the figures are over the camera's points, or without a camera over the probes
+/// (design §2).
 StudyPoints find_study_points(const LitScene& scene, const AnyExecutor& executor);
 
 /// At most `most` of the figures' points, evenly spread.

@@ -18,7 +18,8 @@ std::vector<EffectPlan> explained(const Scene& scene, const Effects& effects)
     const std::string lights = std::to_string(scene.lights.size());
     return {
         {"shadows", effects.shadows,
-         effects.shadows ? surfaces + (scene.surfaces.size() == 1 ? " surface" : " surfaces") + " may stand before a light"
+         effects.shadows ? surfaces + (scene.surfaces.size() == 1 ? " surface" : " surfaces") +
+                               " may stand before a light"
                          : "no surface, so nothing stands before a light: no shadow ray is traced"},
         {"light_occlusion", effects.light_occlusion,
          effects.light_occlusion ? lights + " lights may stand before one another"

@@ -8,8 +8,8 @@
 
 namespace mis {
 
-/// What must be simulated on a scene; what provably changes no value may be left out. Plain data. Effects never change
-/// a probability, a draw, a density or the random numbers.
+/// What must be simulated on a scene; what provably changes no value may be left out. Plain data.
+/// Effects never change a probability, a draw, a density or the random numbers.
 struct Effects {
     std::size_t lights = 0;
     bool shadows = true;          ///< surfaces that could hide a light

@@ -33,25 +33,27 @@ template <class T> struct VecColumn {
     void put(int row, const Vec3<T>& v) { set<T>(row, v); }
 };
 
-/// Room for the table that a policy leaves for one point; policies keep small trivially copyable views.
+/// Room for the table that a policy leaves for one point; policies keep small trivially copyable
+/// views.
 struct alignas(16) TableSlot {
     std::array<std::byte, 48> bytes;
 };
 
-/// Some hundred samples of one tile, one array per quantity. A half (light draws, or BSDF draws) runs over `rows` rows;
-/// a row belongs to the sample `slot`, to whose `value` it adds. Rows beyond `rows`, up to the next multiple of the
-/// lanes, hold harmless numbers, so that stages need no remainder.
+/// Some hundred samples of one tile, one array per quantity. A half (light draws, or BSDF draws)
+/// runs over `rows` rows; a row belongs to the sample `slot`, to whose `value` it adds. Rows beyond
+/// `rows`, up to the next multiple of the lanes, hold harmless numbers, so that stages need no
+/// remainder.
 template <class T> struct Batch {
-    int samples = 0;         ///< in this batch: slots 0 … samples − 1
-    int rows = 0;            ///< of the half that runs now
-    std::uint32_t draw = 0;  ///< number of the draw within the sample
-    std::size_t points = 0;  ///< shading points that have a table here
+    int samples = 0;                             ///< in this batch: slots 0 … samples − 1
+    int rows = 0;                                ///< of the half that runs now
+    std::uint32_t draw = 0;                      ///< number of the draw within the sample
+    std::size_t points = 0;                      ///< shading points that have a table here
     std::uint64_t invalid = 0, shadow_rays = 0;  ///< counted over all batches
 
     // Per sample.
-    alignas(64) Column<std::int32_t> sample_point;   ///< which of the batch's points
+    alignas(64) Column<std::int32_t> sample_point;  ///< which of the batch's points
     alignas(64) Column<std::uint64_t> sample_number;
-    VecColumn<T> value;                              ///< radiance, W·sr⁻¹·m⁻²
+    VecColumn<T> value;  ///< radiance, W·sr⁻¹·m⁻²
 
     // Per point of this batch.
     std::array<TableSlot, batch_capacity> tables;
@@ -59,24 +61,25 @@ template <class T> struct Batch {
 
     // Per row.
     alignas(64) Column<std::int32_t> slot;
-    alignas(64) Column<std::int32_t> point;     ///< which of the batch's points
-    alignas(64) Column<std::int32_t> light;     ///< or no_light
-    alignas(64) Column<std::uint64_t> bits;     ///< of the choice
-    alignas(64) Column<T> u, v, lobe;           ///< in [0, 1)
-    VecColumn<T> x;                             ///< relative to the job's origin; for screening alone
-    VecColumn<T> n;                             ///< shading normal
-    VecColumn<T> wo;                            ///< in the shading frame
-    VecColumn<T> wi;                            ///< in scene axes
-    VecColumn<T> offset;                        ///< of a light draw: wi − axis of the cap
-    VecColumn<T> to_center;                     ///< from x to the light's centre
-    alignas(64) Column<T> radius, gap2;         ///< of the light; d² − r²
-    alignas(64) Column<T> distance;             ///< along wi to the light
-    alignas(64) Column<T> light_number;         ///< `light` as a T, for screening
-    alignas(64) Column<T> candidate;            ///< 1 where screening cannot rule out another light, else 0
-    alignas(64) Column<T> probability;          ///< P(j | point)
-    alignas(64) Column<T> light_pdf, bsdf_pdf;  ///< P · pdf of the light technique; pdf of the other, per steradian
-    VecColumn<T> radiance;                      ///< what arrives: over the pdf of the cap for a light draw; see stages
-    VecColumn<T> contribution;                  ///< f cos θ, then the row's share of the estimate; 0 is dead
+    alignas(64) Column<std::int32_t> point;  ///< which of the batch's points
+    alignas(64) Column<std::int32_t> light;  ///< or no_light
+    alignas(64) Column<std::uint64_t> bits;  ///< of the choice
+    alignas(64) Column<T> u, v, lobe;        ///< in [0, 1)
+    VecColumn<T> x;                          ///< relative to the job's origin; for screening alone
+    VecColumn<T> n;                          ///< shading normal
+    VecColumn<T> wo;                         ///< in the shading frame
+    VecColumn<T> wi;                         ///< in scene axes
+    VecColumn<T> offset;                     ///< of a light draw: wi − axis of the cap
+    VecColumn<T> to_center;                  ///< from x to the light's centre
+    alignas(64) Column<T> radius, gap2;      ///< of the light; d² − r²
+    alignas(64) Column<T> distance;          ///< along wi to the light
+    alignas(64) Column<T> light_number;      ///< `light` as a T, for screening
+    alignas(64) Column<T> candidate;    ///< 1 where screening cannot rule out another light, else 0
+    alignas(64) Column<T> probability;  ///< P(j | point)
+    alignas(64) Column<T> light_pdf,
+        bsdf_pdf;           ///< P · pdf of the light technique; pdf of the other, per steradian
+    VecColumn<T> radiance;  ///< what arrives: over the pdf of the cap for a light draw; see stages
+    VecColumn<T> contribution;  ///< f cos θ, then the row's share of the estimate; 0 is dead
 };
 
 }  // namespace mis

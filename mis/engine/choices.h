@@ -8,7 +8,8 @@
 
 namespace mis {
 
-// The registered types by name, for pipelines that are composed at run time. The pointers hold an object of the type.
+// The registered types by name, for pipelines that are composed at run time. The pointers hold an
+// object of the type.
 
 /// Throws std::out_of_range for an unknown name, as make_bsdf does.
 std::shared_ptr<const void> make_policy(std::string_view name, const Lights& lights);

@@ -41,28 +41,32 @@ struct Found {
     std::vector<Background> background;
 };
 
-/// Files a point under its material, or as dark: on the inside of a light, or seen from below its surface.
+/// Files a point under its material, or as dark: on the inside of a light, or seen from below its
+/// surface.
 void add_point(Found& found, const ShadingPoint& point, int material, const LightHierarchy& lights)
 {
     if (!(dot(point.n, point.wo) > 0) || lights.contains(point.x)) found.dark.push_back(point.id);
     else found.by_material[material].push_back(point);
 }
 
-void add_pixel(Found& found, const Scene& scene, const PixelRays& rays, const LightHierarchy& lights,
-               const SurfaceTracer* surfaces, int column, int row)
+void add_pixel(Found& found, const Scene& scene, const PixelRays& rays,
+               const LightHierarchy& lights, const SurfaceTracer* surfaces, int column, int row)
 {
-    const auto id = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(scene.camera->resolution[0]) +
-                    static_cast<std::uint32_t>(column);
+    const auto id =
+        static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(scene.camera->resolution[0]) +
+        static_cast<std::uint32_t>(column);
     const Vec3<double> origin = scene.camera->position, direction = rays.direction(column, row);
     const LightHit light = lights.nearest(origin, direction);
-    const std::optional<SurfaceHit> hit = surfaces != nullptr ? surfaces->first_hit(origin, direction) : std::nullopt;
+    const std::optional<SurfaceHit> hit =
+        surfaces != nullptr ? surfaces->first_hit(origin, direction) : std::nullopt;
     if (!hit || light.distance < hit->distance) {
         found.background.push_back({id, light.light});
         return;
     }
     const Vec3<double> off = hit->x + hit->geometric * hit->offset;
     add_point(found,
-              {hit->x, vec_cast<float>(hit->n), vec_cast<float>(-direction), vec_cast<float>(off - surfaces->origin()), id},
+              {hit->x, vec_cast<float>(hit->n), vec_cast<float>(-direction),
+               vec_cast<float>(off - surfaces->origin()), id},
               hit->material, lights);
 }
 
@@ -70,27 +74,32 @@ void append(GBuffer& buffer, const Found& found)
 {
     for (const auto& [material, points] : found.by_material) {
         buffer.tiles.push_back({static_cast<std::uint32_t>(buffer.points.size()),
-                                static_cast<std::uint32_t>(points.size()), material, points.front().x});
+                                static_cast<std::uint32_t>(points.size()), material,
+                                points.front().x});
         buffer.points.insert(buffer.points.end(), points.begin(), points.end());
     }
     buffer.dark.insert(buffer.dark.end(), found.dark.begin(), found.dark.end());
-    buffer.background.insert(buffer.background.end(), found.background.begin(), found.background.end());
+    buffer.background.insert(buffer.background.end(), found.background.begin(),
+                             found.background.end());
 }
 
 }  // namespace
 
-GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights, const SurfaceTracer* surfaces,
-                            int first_row, int rows, const AnyExecutor& executor)
+GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights,
+                            const SurfaceTracer* surfaces, int first_row, int rows,
+                            const AnyExecutor& executor)
 {
     GBuffer buffer{.width = scene.camera->resolution[0], .height = scene.camera->resolution[1]};
     buffer.first_row = first_row;
     buffer.rows = rows;
     const PixelRays rays(*scene.camera);
-    const int across = (buffer.width + tile_side - 1) / tile_side, down = (rows + tile_side - 1) / tile_side;
+    const int across = (buffer.width + tile_side - 1) / tile_side,
+              down = (rows + tile_side - 1) / tile_side;
     std::vector<Found> blocks(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
     executor.for_each(blocks.size(), [&](std::size_t b) {
         const int left = static_cast<int>(b % static_cast<std::size_t>(across)) * tile_side;
-        const int top = first_row + static_cast<int>(b / static_cast<std::size_t>(across)) * tile_side;
+        const int top =
+            first_row + static_cast<int>(b / static_cast<std::size_t>(across)) * tile_side;
         for (int row = top; row < std::min(top + tile_side, first_row + rows); ++row)
             for (int column = left; column < std::min(left + tile_side, buffer.width); ++column)
                 add_pixel(blocks[b], scene, rays, lights, surfaces, column, row);
@@ -99,21 +108,24 @@ GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights, co
     return buffer;
 }
 
-GBuffer probe_points(const Scene& scene, const LightHierarchy& lights, const SurfaceTracer* surfaces)
+GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
+                     const SurfaceTracer* surfaces)
 {
     GBuffer buffer;
-    const std::uint32_t pixels = scene.camera ? static_cast<std::uint32_t>(scene.camera->resolution[0]) *
-                                                    static_cast<std::uint32_t>(scene.camera->resolution[1])
-                                              : 0;
+    const std::uint32_t pixels = scene.camera
+                                     ? static_cast<std::uint32_t>(scene.camera->resolution[0]) *
+                                           static_cast<std::uint32_t>(scene.camera->resolution[1])
+                                     : 0;
     for (std::size_t p = 0; p < scene.probes.size(); ++p) {
         const Probe& probe = scene.probes[p];
         Vec3<double> off{0};
         if (surfaces != nullptr)
-            off = probe.position + probe.normal * surfaces->offset_at(probe.position) - surfaces->origin();
+            off = probe.position + probe.normal * surfaces->offset_at(probe.position) -
+                  surfaces->origin();
         Found found;
         add_point(found,
-                  {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing), vec_cast<float>(off),
-                   pixels + static_cast<std::uint32_t>(p)},
+                  {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing),
+                   vec_cast<float>(off), pixels + static_cast<std::uint32_t>(p)},
                   probe.material, lights);
         append(buffer, found);
     }

@@ -15,7 +15,7 @@ namespace mis {
 struct Tile {
     std::uint32_t first = 0, count = 0;  ///< of GBuffer::points
     int material = 0;
-    Vec3<double> origin{0};              ///< near its points
+    Vec3<double> origin{0};  ///< near its points
 };
 
 /// A pixel that shows no surface.
@@ -24,26 +24,29 @@ struct Background {
     LightIndex light;  ///< that the camera sees there, or no_light
 };
 
-/// The shading points of a scene, found once and kept, cut into tiles. Random numbers go by a point's id: its pixel's
-/// number, or after all pixels the probe's.
+/// The shading points of a scene, found once and kept, cut into tiles. Random numbers go by a
+/// point's id: its pixel's number, or after all pixels the probe's.
 struct GBuffer {
-    int width = 0, height = 0;               ///< of the camera's picture; 0 without a camera
-    int first_row = 0, rows = 0;             ///< the band of the picture that was found
-    std::vector<ShadingPoint> points;        ///< in the order of the tiles
-    std::vector<Tile> tiles;                 ///< points that can be lit
-    std::vector<std::uint32_t> dark;         ///< ids of points that see no light: inside one, or seen from below
+    int width = 0, height = 0;         ///< of the camera's picture; 0 without a camera
+    int first_row = 0, rows = 0;       ///< the band of the picture that was found
+    std::vector<ShadingPoint> points;  ///< in the order of the tiles
+    std::vector<Tile> tiles;           ///< points that can be lit
+    std::vector<std::uint32_t>
+        dark;  ///< ids of points that see no light: inside one, or seen from below
     std::vector<Background> background;
 };
 
 /// Points per tile at most: a square of pixels.
 inline constexpr int tile_side = 16;
 
-/// The shading points of the camera's rows [first_row, first_row + rows), through the pixels' centres.
-/// surfaces: nullptr where the scene has none.
-GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights, const SurfaceTracer* surfaces,
-                            int first_row, int rows, const AnyExecutor& executor);
+/// The shading points of the camera's rows [first_row, first_row + rows), through the pixels'
+/// centres. surfaces: nullptr where the scene has none.
+GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights,
+                            const SurfaceTracer* surfaces, int first_row, int rows,
+                            const AnyExecutor& executor);
 
 /// The probes, each a tile of its own.
-GBuffer probe_points(const Scene& scene, const LightHierarchy& lights, const SurfaceTracer* surfaces);
+GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
+                     const SurfaceTracer* surfaces);
 
 }  // namespace mis

@@ -11,27 +11,30 @@ namespace mis {
 /// Up to so many lights, all are screened by lanes of samples before the hierarchy is asked.
 inline constexpr std::size_t most_screened_lights = 32;
 
-/// What the stages of one tile read. Plain values and references; nothing here changes while a tile runs.
+/// What the stages of one tile read. Plain values and references; nothing here changes while a tile
+/// runs.
 template <class T> struct TileJob {
-    std::span<const ShadingPoint> points;      ///< of the tile
+    std::span<const ShadingPoint> points;  ///< of the tile
     const Lights* lights = nullptr;
     const LightHierarchy* hierarchy = nullptr;
-    const SurfaceTracer* surfaces = nullptr;   ///< nullptr where none can occlude
-    Vec3<double> origin{0};                    ///< of the columns
-    LightColumns<T> columns;                   ///< for policies that look at the point, and for screening
-    const void* policy = nullptr;              ///< a type of the registry, as is bsdf
+    const SurfaceTracer* surfaces = nullptr;  ///< nullptr where none can occlude
+    Vec3<double> origin{0};                   ///< of the columns
+    LightColumns<T> columns;       ///< for policies that look at the point, and for screening
+    const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
     std::uint64_t seed = 1;
-    T light_count = 1, bsdf_count = 1;         ///< n_i of the multi-sample model; c_i of the one-sample model
-    std::uint32_t draws_per_light = 1;         ///< for a policy that draws every light
+    T light_count = 1,
+      bsdf_count = 1;  ///< n_i of the multi-sample model; c_i of the one-sample model
+    std::uint32_t draws_per_light = 1;  ///< for a policy that draws every light
 };
 
-/// One step of a pipeline: reads and writes columns of a batch, and nothing else. A stage is a loop over rows that
-/// calls a formula written once; there is one per policy, technique, BSDF and heuristic, for each number type and
-/// instruction set.
+/// One step of a pipeline: reads and writes columns of a batch, and nothing else. A stage is a loop
+/// over rows that calls a formula written once; there is one per policy, technique, BSDF and
+/// heuristic, for each number type and instruction set.
 template <class T> using Stage = void (*)(const TileJob<T>&, Batch<T>&);
 
 /// Fills the tables of the batch's points [first, batch.points), from the scratch.
-template <class T> using PrepareStage = void (*)(const TileJob<T>&, Batch<T>&, std::size_t first, Scratch&);
+template <class T>
+using PrepareStage = void (*)(const TileJob<T>&, Batch<T>&, std::size_t first, Scratch&);
 
 }  // namespace mis

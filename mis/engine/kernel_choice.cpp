@@ -7,8 +7,8 @@
 namespace mis {
 
 // One pair per instruction set that was compiled (engine/kernels.cpp).
-#define MIS_DECLARE_KERNELS(isa)                  \
-    const Kernels<float>& kernels_float_##isa();   \
+#define MIS_DECLARE_KERNELS(isa)                 \
+    const Kernels<float>& kernels_float_##isa(); \
     const Kernels<double>& kernels_double_##isa();
 MIS_DECLARE_KERNELS(scalar)
 MIS_DECLARE_KERNELS(avx2)
@@ -29,8 +29,8 @@ std::vector<InstructionSet> available()
 {
     std::vector<InstructionSet> sets;
 #if defined(MIS_HAS_AVX512)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512cd"))
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512cd"))
         sets.push_back({"avx512", kernels_float_avx512, kernels_double_avx512});
 #endif
 #if defined(MIS_HAS_AVX2)
@@ -53,8 +53,8 @@ InstructionSet chosen(std::string_view name)
         if (set.name == name) return set;
         known += (known.empty() ? "" : ", ") + std::string(set.name);
     }
-    throw std::runtime_error("instruction set: found \"" + std::string(name) + "\"; this processor and this build have " +
-                             known);
+    throw std::runtime_error("instruction set: found \"" + std::string(name) +
+                             "\"; this processor and this build have " + known);
 }
 
 }  // namespace
@@ -66,8 +66,14 @@ std::vector<std::string_view> instruction_sets()
     return names;
 }
 
-template <> const Kernels<float>& kernels_of<float>(std::string_view name) { return chosen(name).kernels_float(); }
-template <> const Kernels<double>& kernels_of<double>(std::string_view name) { return chosen(name).kernels_double(); }
+template <> const Kernels<float>& kernels_of<float>(std::string_view name)
+{
+    return chosen(name).kernels_float();
+}
+template <> const Kernels<double>& kernels_of<double>(std::string_view name)
+{
+    return chosen(name).kernels_double();
+}
 
 namespace {
 std::string_view wanted()

@@ -1,5 +1,6 @@
-// Compiled once per instruction set (MIS_ISA), each time with the flags of that set. What stands here and in the stages'
-// headers lives in an inline namespace of its own, so that no other code is ever linked to it but through the tables.
+// Compiled once per instruction set (MIS_ISA), each time with the flags of that set. What stands
+// here and in the stages' headers lives in an inline namespace of its own, so that no other code is
+// ever linked to it but through the tables.
 #include "mis/engine/kernels.h"
 
 #include "mis/bsdf/registry.h"
@@ -40,7 +41,8 @@ template <class T> using Lanes = typename MIS_ISA<T>::Lanes;
 
 template <class Policy, class V, class T>
 using TableOf = decltype(std::declval<const Policy&>().template prepare<V>(
-    std::declval<const ChoicePoint<T>&>(), std::declval<const LightColumns<T>&>(), std::declval<Scratch&>()));
+    std::declval<const ChoicePoint<T>&>(), std::declval<const LightColumns<T>&>(),
+    std::declval<Scratch&>()));
 
 /// Leaves a policy's table for each point of the batch from `first` on.
 template <class V, class Policy, class T>
@@ -50,7 +52,8 @@ void prepare_tables(const TileJob<T>& job, Batch<T>& batch, std::size_t first, S
     for (std::size_t p = first; p < batch.points; ++p) {
         const ShadingPoint& point = job.points[batch.tile_point[p]];
         const ChoicePoint<T> seen{vec_cast<T>(point.x - job.origin), vec_cast<T>(point.n)};
-        ::new (&batch.tables[p]) TableOf<Policy, V, T>(policy.template prepare<V>(seen, job.columns, scratch));
+        ::new (&batch.tables[p])
+            TableOf<Policy, V, T>(policy.template prepare<V>(seen, job.columns, scratch));
     }
 }
 
@@ -67,20 +70,24 @@ template <class T> Kernels<T> make_kernels()
     kernels.weigh_alone = weigh_alone<V, T>;
     for_each_type(Policies{}, [&]<class P>() {
         using Table = TableOf<P, V, T>;
-        kernels.policies.push_back({P::name, P::draws_every_light, P::looks_at_point, P::table_bytes,
-                                    prepare_tables<V, P, T>, choose_light<P, Table, T>,
-                                    price_light<Table, T>, sum_light_draw<Table, T>, sum_bsdf_draw<Table, T>});
+        kernels.policies.push_back({P::name, P::draws_every_light, P::looks_at_point,
+                                    P::table_bytes, prepare_tables<V, P, T>,
+                                    choose_light<P, Table, T>, price_light<Table, T>,
+                                    sum_light_draw<Table, T>, sum_bsdf_draw<Table, T>});
     });
     for_each_type(Techniques{}, [&]<class K>() {
         if constexpr (K::chooses_light)
-            kernels.light_techniques.push_back({K::name, K::sums_lights, draw_light<V, K, T>, pdf_of_light<V, K, T>});
+            kernels.light_techniques.push_back(
+                {K::name, K::sums_lights, draw_light<V, K, T>, pdf_of_light<V, K, T>});
         else
             for_each_type(Bsdfs{}, [&]<class B>() {
                 kernels.directions.push_back(
                     {K::name, B::name, draw_direction<V, B, K, T>, pdf_of_direction<V, K, T>});
             });
     });
-    for_each_type(Bsdfs{}, [&]<class B>() { kernels.bsdfs.push_back({B::name, evaluate_bsdf<V, B, T>}); });
+    for_each_type(Bsdfs{}, [&]<class B>() {
+        kernels.bsdfs.push_back({B::name, evaluate_bsdf<V, B, T>});
+    });
     for_each_type(Heuristics{}, [&]<class H>() {
         kernels.heuristics.push_back({H::name, weigh_light<V, H, T>, weigh_bsdf<V, H, T>});
     });

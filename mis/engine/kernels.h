@@ -18,7 +18,8 @@ template <class T> struct PolicyStages {
     PrepareStage<T> prepare;
     Stage<T> choose;       ///< bits → light, probability
     Stage<T> probability;  ///< light → probability
-    Stage<T> sum_light_draw, sum_bsdf_draw;  ///< of the union: all lights along wi → light_pdf, radiance, distance
+    Stage<T> sum_light_draw,
+        sum_bsdf_draw;  ///< of the union: all lights along wi → light_pdf, radiance, distance
 };
 
 template <class T> struct LightTechniqueStages {
@@ -51,7 +52,8 @@ template <class T> struct Kernels {
     std::size_t lanes;
     Stage<T> light_numbers, bsdf_numbers;
     Stage<T> screen_meeting;  ///< wi → candidate: could wi meet any light?
-    Stage<T> screen_hiding;   ///< wi, light, distance → candidate: could another light stand before it?
+    Stage<T>
+        screen_hiding;  ///< wi, light, distance → candidate: could another light stand before it?
     Stage<T> weigh_alone;  ///< contribution = f cos θ · L/pdf
     std::vector<PolicyStages<T>> policies;
     std::vector<LightTechniqueStages<T>> light_techniques;
@@ -60,11 +62,13 @@ template <class T> struct Kernels {
     std::vector<HeuristicStages<T>> heuristics;
 };
 
-/// The kernels of the best instruction set that this processor has, or of the one that the environment variable
-/// MIS_ISA names. Throws std::runtime_error where that is unknown or not to be had here.
+/// The kernels of the best instruction set that this processor has, or of the one that the
+/// environment variable MIS_ISA names. Throws std::runtime_error where that is unknown or not to be
+/// had here.
 template <class T> const Kernels<T>& kernels();
 
-/// The names of the instruction sets that were compiled and that this processor can run, best first.
+/// The names of the instruction sets that were compiled and that this processor can run, best
+/// first.
 std::vector<std::string_view> instruction_sets();
 
 /// The kernels of one instruction set. Throws std::runtime_error as kernels() does.

@@ -10,10 +10,13 @@ namespace mis {
 
 /// The lights as columns relative to `origin`, in `storage`. Linear in the number of lights.
 template <class T>
-LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& origin, std::vector<T>& storage)
+LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& origin,
+                                   std::vector<T>& storage)
 {
     const std::size_t count = lights.size(), padded = (count + 15) / 16 * 16;
-    storage.assign(padded * 5, T(1));  // the padding is a light of radius 1 at distance √3: finite, and never read
+    storage.assign(
+        padded * 5,
+        T(1));  // the padding is a light of radius 1 at distance √3: finite, and never read
     std::array<std::span<T>, 5> column;
     for (std::size_t k = 0; k < 5; ++k) column[k] = std::span(storage).subspan(k * padded, padded);
     double largest = 0;
@@ -24,7 +27,8 @@ LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& ori
         column[4][j] = static_cast<T>(luminance_radius(lights[j]));
         largest = std::max(largest, lights[j].radius);
     }
-    return {count, column[0], column[1], column[2], column[3], column[4], static_cast<T>(1 / largest)};
+    return {
+        count, column[0], column[1], column[2], column[3], column[4], static_cast<T>(1 / largest)};
 }
 
 }  // namespace mis

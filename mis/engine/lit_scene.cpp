@@ -11,8 +11,8 @@ LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effe
 }
 
 template <class T>
-ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
-                                std::uint64_t seed)
+ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
+                                const Kernels<T>& kernels, std::uint64_t seed)
     : scene_(&scene), strategy_(strategy)
 {
     if (strategy.chooses_light()) policy_ = make_policy(strategy.policy, scene.scene().lights);
@@ -25,10 +25,10 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
     common_.seed = seed;
     const bool one_sample = strategy.model == Model::one_sample;
     common_.draws_per_light = static_cast<std::uint32_t>(std::max(strategy.counts[0], 1));
-    const std::array<double, 2> counts = one_sample
-                                             ? std::array{0.5, 0.5}
-                                             : std::array<double, 2>{static_cast<double>(strategy.counts[0]),
-                                                                     static_cast<double>(strategy.counts[1])};
+    const std::array<double, 2> counts =
+        one_sample ? std::array{0.5, 0.5}
+                   : std::array<double, 2>{static_cast<double>(strategy.counts[0]),
+                                           static_cast<double>(strategy.counts[1])};
     common_.light_count = static_cast<T>(counts[0]);
     common_.bsdf_count = static_cast<T>(counts[1]);
 }

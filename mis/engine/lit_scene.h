@@ -3,18 +3,18 @@
 #include "mis/effects/effects.h"
 #include "mis/engine/gbuffer.h"
 #include "mis/engine/tile.h"
+#include "mis/run/pool.h"
 #include "mis/scene/scene.h"
 #include "mis/trace/lights.h"
 #include "mis/trace/visibility.h"
 
 #include <memory>
-#include <mutex>
 #include <vector>
 
 namespace mis {
 
-/// A scene made ready to be lit: the hierarchy over its lights, its BSDFs, and who answers for its surfaces. Keeps
-/// references to the scene and the tracer.
+/// A scene made ready to be lit: the hierarchy over its lights, its BSDFs, and who answers for its
+/// surfaces. Keeps references to the scene and the tracer.
 class LitScene {
 public:
     /// surfaces: nullptr where the scene has none.
@@ -24,7 +24,10 @@ public:
     const Effects& effects() const { return effects_; }
     const LightHierarchy& lights() const { return hierarchy_; }
     const SurfaceTracer* surfaces() const { return surfaces_; }
-    const void* bsdf(int material) const { return bsdfs_[static_cast<std::size_t>(material)].get(); }
+    const void* bsdf(int material) const
+    {
+        return bsdfs_[static_cast<std::size_t>(material)].get();
+    }
 
 private:
     const Scene* scene_;
@@ -37,11 +40,15 @@ private:
 /// One strategy made ready on a scene: its policy's tables, and a pipeline per material.
 template <class T> class ReadyStrategy {
 public:
-    ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels, std::uint64_t seed);
+    ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
+                  std::uint64_t seed);
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
-    const Pipeline<T>& pipeline(int material) const { return pipelines_[static_cast<std::size_t>(material)]; }
+    const Pipeline<T>& pipeline(int material) const
+    {
+        return pipelines_[static_cast<std::size_t>(material)];
+    }
     const Strategy& strategy() const { return strategy_; }
 
 private:
@@ -55,29 +62,7 @@ private:
 extern template class ReadyStrategy<float>;
 extern template class ReadyStrategy<double>;
 
-/// Workspaces that threads borrow: as many as ever run at once.
-template <class T> class WorkspacePool {
-public:
-    /// body(workspace), with one that no other thread has.
-    template <class Body> void with(const Body& body)
-    {
-        std::unique_ptr<Workspace<T>> workspace = take();
-        body(*workspace);
-        const std::lock_guard lock(mutex_);
-        free_.push_back(std::move(workspace));
-    }
-
-private:
-    std::unique_ptr<Workspace<T>> take()
-    {
-        const std::lock_guard lock(mutex_);
-        if (free_.empty()) return std::make_unique<Workspace<T>>();
-        std::unique_ptr<Workspace<T>> workspace = std::move(free_.back());
-        free_.pop_back();
-        return workspace;
-    }
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<Workspace<T>>> free_;
-};
+/// Workspaces that threads borrow.
+template <class T> using WorkspacePool = Pool<Workspace<T>>;
 
 }  // namespace mis

@@ -17,11 +17,13 @@ template <class List> const auto& named(const List& list, std::string_view name)
 }
 
 template <class T>
-const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view technique, std::string_view bsdf)
+const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view technique,
+                                    std::string_view bsdf)
 {
     for (const DirectionStages<T>& entry : kernels.directions)
         if (entry.technique == technique && entry.bsdf == bsdf) return entry;
-    throw std::out_of_range("no draw is made for " + std::string(technique) + " on " + std::string(bsdf));
+    throw std::out_of_range("no draw is made for " + std::string(technique) + " on " +
+                            std::string(bsdf));
 }
 
 /// Surfaces, then sum: how either half ends.
@@ -32,8 +34,8 @@ template <class T> void add_ending(std::vector<NamedStage<T>>& stages, const Eff
 }
 
 template <class T>
-std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
-                                      const Effects& effects)
+std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy& s,
+                                      std::string_view bsdf, const Effects& effects)
 {
     const PolicyStages<T>& policy = named(kernels.policies, s.policy);
     const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
@@ -42,11 +44,13 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
     stages.push_back({StageKind::numbers, kernels.light_numbers});
     stages.push_back({StageKind::choose, policy.choose});
     stages.push_back({StageKind::draw, technique.draw});
-    if (technique.sums_lights && effects.light_occlusion) stages.push_back({StageKind::meet, policy.sum_light_draw});
+    if (technique.sums_lights && effects.light_occlusion)
+        stages.push_back({StageKind::meet, policy.sum_light_draw});
     stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
     stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_light});
     if (!technique.sums_lights && effects.light_occlusion) {
-        if (effects.lights <= most_screened_lights) stages.push_back({StageKind::light_occlusion, kernels.screen_hiding});
+        if (effects.lights <= most_screened_lights)
+            stages.push_back({StageKind::light_occlusion, kernels.screen_hiding});
         stages.push_back({StageKind::light_occlusion, hide_by_lights<T>});
     }
     add_ending(stages, effects);
@@ -55,8 +59,8 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
 
 /// A BSDF draw beside light draws.
 template <class T>
-std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
-                                     const Effects& effects)
+std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& s,
+                                     std::string_view bsdf, const Effects& effects)
 {
     const PolicyStages<T>& policy = named(kernels.policies, s.policy);
     const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
@@ -64,11 +68,13 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_bsdf_rows<T>});
     stages.push_back({StageKind::numbers, kernels.bsdf_numbers});
     stages.push_back({StageKind::draw, direction(kernels, "brdf", bsdf).draw});
-    if (effects.lights <= most_screened_lights) stages.push_back({StageKind::meet, kernels.screen_meeting});
+    if (effects.lights <= most_screened_lights)
+        stages.push_back({StageKind::meet, kernels.screen_meeting});
     stages.push_back({StageKind::meet, meet_lights<T>});
     stages.push_back({StageKind::choose, policy.probability});
     stages.push_back({StageKind::draw, technique.pdf});
-    if (technique.sums_lights && effects.light_occlusion) stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
+    if (technique.sums_lights && effects.light_occlusion)
+        stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
     stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
     stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_bsdf});
     add_ending(stages, effects);
@@ -77,14 +83,15 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
 
 /// A direction technique by itself.
 template <class T>
-std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
-                                           const Effects& effects)
+std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Strategy& s,
+                                           std::string_view bsdf, const Effects& effects)
 {
     const DirectionStages<T>& draw = direction(kernels, s.technique, bsdf);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>},
                                       {StageKind::numbers, kernels.bsdf_numbers},
                                       {StageKind::draw, draw.draw}};
-    if (effects.lights <= most_screened_lights) stages.push_back({StageKind::meet, kernels.screen_meeting});
+    if (effects.lights <= most_screened_lights)
+        stages.push_back({StageKind::meet, kernels.screen_meeting});
     stages.push_back({StageKind::meet, meet_lights<T>});
     stages.push_back({StageKind::draw, fetch_radiance<T>});
     stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
@@ -97,7 +104,8 @@ std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Stra
 }  // namespace
 
 template <class T>
-Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf, const Effects& effects)
+Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
+                    const Effects& effects)
 {
     Pipeline<T> pipeline;
     if (!s.chooses_light()) {
@@ -117,7 +125,9 @@ Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_vi
     return pipeline;
 }
 
-template Pipeline<float> compose(const Kernels<float>&, const Strategy&, std::string_view, const Effects&);
-template Pipeline<double> compose(const Kernels<double>&, const Strategy&, std::string_view, const Effects&);
+template Pipeline<float> compose(const Kernels<float>&, const Strategy&, std::string_view,
+                                 const Effects&);
+template Pipeline<double> compose(const Kernels<double>&, const Strategy&, std::string_view,
+                                  const Effects&);
 
 }  // namespace mis

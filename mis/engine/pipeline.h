@@ -11,28 +11,44 @@
 namespace mis {
 
 /// What a stage spends its time on; the report's "where the time goes".
-enum class StageKind : std::uint8_t { prepare, rows, numbers, choose, draw, bsdf, meet, weigh, light_occlusion, rays, add };
-inline constexpr std::array<std::string_view, 11> stage_names{"prepare", "rows",  "numbers", "choose",          "draw", "bsdf",
-                                                              "meet",    "weigh", "light_occlusion", "rays", "add"};
+enum class StageKind : std::uint8_t {
+    prepare,
+    rows,
+    numbers,
+    choose,
+    draw,
+    bsdf,
+    meet,
+    weigh,
+    light_occlusion,
+    rays,
+    add
+};
+inline constexpr std::array<std::string_view, 11> stage_names{
+    "prepare", "rows",  "numbers",         "choose", "draw", "bsdf",
+    "meet",    "weigh", "light_occlusion", "rays",   "add"};
 
 template <class T> struct NamedStage {
     StageKind kind;
     Stage<T> run;
 };
 
-/// The stages of one strategy on one material, composed from what the scene calls for: what it does not call for is
-/// not in the lists.
+/// The stages of one strategy on one material, composed from what the scene calls for: what it does
+/// not call for is not in the lists.
 template <class T> struct Pipeline {
-    PrepareStage<T> prepare = nullptr;             ///< nullptr where no policy looks at the point
+    PrepareStage<T> prepare = nullptr;  ///< nullptr where no policy looks at the point
     bool draws_every_light = false;
     bool looks_at_point = false;
-    std::size_t table_bytes = 0;                   ///< of one point
-    std::vector<NamedStage<T>> light, bsdf;        ///< one draw of each half
-    int light_draws = 0, bsdf_draws = 0;           ///< per sample; for each light, where the policy draws them all
+    std::size_t table_bytes = 0;             ///< of one point
+    std::vector<NamedStage<T>> light, bsdf;  ///< one draw of each half
+    int light_draws = 0,
+        bsdf_draws = 0;  ///< per sample; for each light, where the policy draws them all
 };
 
-/// Composes the pipeline. The strategy is checked (strategy/strategy.h), bsdf a name of the registry.
+/// Composes the pipeline. The strategy is checked (strategy/strategy.h), bsdf a name of the
+/// registry.
 template <class T>
-Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& strategy, std::string_view bsdf, const Effects& effects);
+Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& strategy, std::string_view bsdf,
+                    const Effects& effects);
 
 }  // namespace mis

@@ -4,13 +4,15 @@ namespace mis {
 
 Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor)
 {
-    Band band{find_shading_points(scene.scene(), scene.lights(), scene.surfaces(), first_row, rows, executor), {}};
+    Band band{find_shading_points(scene.scene(), scene.lights(), scene.surfaces(), first_row, rows,
+                                  executor),
+              {}};
     band.results.resize(band.shading.points.size());
     return band;
 }
 
-TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first, int count,
-                      WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first,
+                      int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor)
 {
     const GBuffer& shading = band.shading;
     std::vector<TileTotals> totals(shading.tiles.size());
@@ -18,9 +20,10 @@ TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uin
         const Tile& tile = shading.tiles[t];
         const auto points = std::span(shading.points).subspan(tile.first, tile.count);
         workspaces.with([&](Workspace<float>& workspace) {
-            totals[t] = workspace.run(strategy.job(tile, points), strategy.pipeline(tile.material),
-                                      {.first = first, .chunk = count, .chunks = 1},
-                                      std::span(band.results).subspan(tile.first, tile.count), {}, {});
+            totals[t] =
+                workspace.run(strategy.job(tile, points), strategy.pipeline(tile.material),
+                              {.first = first, .chunk = count, .chunks = 1},
+                              std::span(band.results).subspan(tile.first, tile.count), {}, {});
         });
     });
     TileTotals sum;
@@ -34,8 +37,8 @@ void draw_band(const LitScene& scene, const Band& band, Image& image)
         image.pixels[band.shading.points[p].id] = vec_cast<float>(band.results[p].mean());
     for (const Background& pixel : band.shading.background)
         if (pixel.light >= 0)
-            image.pixels[pixel.pixel] =
-                vec_cast<float>(radiance(scene.scene().lights[static_cast<std::size_t>(pixel.light)]));
+            image.pixels[pixel.pixel] = vec_cast<float>(
+                radiance(scene.scene().lights[static_cast<std::size_t>(pixel.light)]));
 }
 
 }  // namespace mis

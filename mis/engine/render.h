@@ -23,10 +23,11 @@ struct Band {
 Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor);
 
 /// Adds samples [first, first + count) to every shading point. Returns what it cost.
-TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first, int count,
-                      WorkspacePool<float>& workspaces, const AnyExecutor& executor);
+TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first,
+                      int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor);
 
-/// The band's pixels into the image: means at shading points, lights that the camera sees, black elsewhere.
+/// The band's pixels into the image: means at shading points, lights that the camera sees, black
+/// elsewhere.
 void draw_band(const LitScene& scene, const Band& band, Image& image);
 
 }  // namespace mis

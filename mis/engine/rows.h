@@ -30,15 +30,18 @@ template <class T> MIS_INLINE bool is_zero(const VecColumn<T>& column, int row)
 }
 
 /// The table that `Policy` left for a point of the batch.
-template <class Table, class T> MIS_INLINE const Table& table_of(const Batch<T>& batch, std::int32_t point)
+template <class Table, class T>
+MIS_INLINE const Table& table_of(const Batch<T>& batch, std::int32_t point)
 {
     static_assert(sizeof(Table) <= sizeof(TableSlot) && std::is_trivially_copyable_v<Table>);
     return *reinterpret_cast<const Table*>(&batch.tables[static_cast<std::size_t>(point)]);
 }
 
-template <class T> MIS_INLINE const ShadingPoint& shading_point(const TileJob<T>& job, const Batch<T>& batch, int row)
+template <class T>
+MIS_INLINE const ShadingPoint& shading_point(const TileJob<T>& job, const Batch<T>& batch, int row)
 {
-    return job.points[batch.tile_point[static_cast<std::size_t>(batch.point[static_cast<std::size_t>(row)])]];
+    return job.points[batch.tile_point[static_cast<std::size_t>(
+        batch.point[static_cast<std::size_t>(row)])]];
 }
 
 }  // namespace mis

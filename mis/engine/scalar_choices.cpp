@@ -18,7 +18,9 @@ ScalarBsdf scalar_bsdf(const Material& material)
     for_each_type(Bsdfs{}, [&]<class B>() {
         if (B::name != material.type) return;
         const B bsdf(material);
-        made.evaluate = [bsdf](const Vec3<double>& wo, const Vec3<double>& wi) { return bsdf.evaluate(wo, wi); };
+        made.evaluate = [bsdf](const Vec3<double>& wo, const Vec3<double>& wi) {
+            return bsdf.evaluate(wo, wi);
+        };
         made.sample = [bsdf](const Vec3<double>& wo, double lobe, const Vec2<double>& u) {
             return bsdf.sample(wo, lobe, u);
         };
@@ -33,7 +35,9 @@ ScalarHeuristic scalar_heuristic(std::string_view name)
     ScalarHeuristic made;
     for_each_type(Heuristics{}, [&]<class H>() {
         if (H::name == name)
-            made = [](const std::array<double, 2>& density, std::size_t i) { return H::weight(density, i); };
+            made = [](const std::array<double, 2>& density, std::size_t i) {
+                return H::weight(density, i);
+            };
     });
     if (!made) throw std::out_of_range("no heuristic is called " + std::string(name));
     return made;
@@ -50,10 +54,13 @@ ScalarTechnique scalar_technique(std::string_view name)
                 return K::pdf(cap, n, cos_theta);
             };
         } else {
-            made.direction_pdf = [](double bsdf_pdf, const Vec3<double>& wi) { return K::pdf(bsdf_pdf, wi); };
+            made.direction_pdf = [](double bsdf_pdf, const Vec3<double>& wi) {
+                return K::pdf(bsdf_pdf, wi);
+            };
         }
     });
-    if (!made.light_pdf && !made.direction_pdf) throw std::out_of_range("no technique is called " + std::string(name));
+    if (!made.light_pdf && !made.direction_pdf)
+        throw std::out_of_range("no technique is called " + std::string(name));
     return made;
 }
 
@@ -78,7 +85,8 @@ ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights)
         const auto policy = std::make_shared<const P>(lights);
         draws_every_light_ = P::draws_every_light;
         looks_at_point_ = P::looks_at_point;
-        prepare_ = [policy](const ChoicePoint<double>& point, const LightColumns<double>& columns, Scratch& scratch) {
+        prepare_ = [policy](const ChoicePoint<double>& point, const LightColumns<double>& columns,
+                            Scratch& scratch) {
             const auto table = policy->template prepare<double>(point, columns, scratch);
             return Table{[table, policy](std::uint64_t bits) { return table.choose(bits); },
                          [table, policy](LightIndex j) { return table.probability(j); }};

@@ -11,7 +11,8 @@
 
 namespace mis {
 
-// The registered formulas in double, one point at a time, by name: for what checks the pipeline, not for what is timed.
+// The registered formulas in double, one point at a time, by name: for what checks the pipeline,
+// not for what is timed.
 
 /// A BSDF in the shading frame.
 struct ScalarBsdf {
@@ -23,11 +24,13 @@ struct ScalarBsdf {
 /// Throws std::out_of_range for an unknown type.
 ScalarBsdf scalar_bsdf(const Material& material);
 
-/// A heuristic's weight of technique i (0: light, 1: BSDF), from the densities of both. Throws std::out_of_range.
+/// A heuristic's weight of technique i (0: light, 1: BSDF), from the densities of both. Throws
+/// std::out_of_range.
 using ScalarHeuristic = std::function<double(const std::array<double, 2>& density, std::size_t i)>;
 ScalarHeuristic scalar_heuristic(std::string_view name);
 
-/// A technique, by what prices a direction: in the cap of one light, or over the hemisphere of the shading frame.
+/// A technique, by what prices a direction: in the cap of one light, or over the hemisphere of the
+/// shading frame.
 struct ScalarTechnique {
     bool sums_lights = false;
     std::function<double(const Cap<double>&, const Vec3<double>& n, double cos_theta)> light_pdf;
@@ -52,7 +55,8 @@ public:
 private:
     const Lights* lights_;
     bool draws_every_light_ = false;
-    std::function<Table(const ChoicePoint<double>&, const LightColumns<double>&, Scratch&)> prepare_;
+    std::function<Table(const ChoicePoint<double>&, const LightColumns<double>&, Scratch&)>
+        prepare_;
     bool looks_at_point_ = false;
     Scratch scratch_;
     std::vector<double> columns_;

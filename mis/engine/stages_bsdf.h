@@ -19,22 +19,24 @@ template <class V, class B, class T> void evaluate_bsdf(const TileJob<T>& job, B
         wi.z = select(above, wi.z, number<V>(1));
         const BsdfValue<V> value = bsdf.evaluate(batch.wo.template get<V>(row), wi);
         const Vec3<V> f_cos = value.f * wi.z;
-        batch.contribution.set(
-            row, Vec3<V>(select(above, f_cos.x, zero), select(above, f_cos.y, zero), select(above, f_cos.z, zero)));
+        batch.contribution.set(row,
+                               Vec3<V>(select(above, f_cos.x, zero), select(above, f_cos.y, zero),
+                                       select(above, f_cos.z, zero)));
         set_lanes(batch.bsdf_pdf, row, V(select(above, value.pdf, zero)));
     });
 }
 
 /// lobe, u, v → wi. A draw below the horizon is lost: wi = 0.
-template <class V, class B, class Technique, class T> void draw_direction(const TileJob<T>& job, Batch<T>& batch)
+template <class V, class B, class Technique, class T>
+void draw_direction(const TileJob<T>& job, Batch<T>& batch)
 {
     const B& bsdf = *static_cast<const B*>(job.bsdf);
     const bool draws = Technique::draws(bsdf);
     const V zero = number<V>(0);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Vec2<V> u{lanes_of<V>(batch.u, row), lanes_of<V>(batch.v, row)};
-        const Vec3<V> local =
-            Technique::sample(bsdf, batch.wo.template get<V>(row), V(lanes_of<V>(batch.lobe, row)), u);
+        const Vec3<V> local = Technique::sample(bsdf, batch.wo.template get<V>(row),
+                                                V(lanes_of<V>(batch.lobe, row)), u);
         const Vec3<V> wi = frame_around(batch.n.template get<V>(row)).to_world(local);
         const V keep = draws ? select(local.z > zero, number<V>(1), zero) : zero;
         batch.wi.set(row, Vec3<V>(wi * keep));
@@ -42,10 +44,12 @@ template <class V, class B, class Technique, class T> void draw_direction(const 
 }
 
 /// bsdf_pdf → pdf of the technique that drew wi.
-template <class V, class Technique, class T> void pdf_of_direction(const TileJob<T>&, Batch<T>& batch)
+template <class V, class Technique, class T>
+void pdf_of_direction(const TileJob<T>&, Batch<T>& batch)
 {
     for_each_lane_group<V>(batch.rows, [&](int row) {
-        const Vec3<V> wi = frame_around(batch.n.template get<V>(row)).to_local(batch.wi.template get<V>(row));
+        const Vec3<V> wi =
+            frame_around(batch.n.template get<V>(row)).to_local(batch.wi.template get<V>(row));
         set_lanes(batch.bsdf_pdf, row, V(Technique::pdf(V(lanes_of<V>(batch.bsdf_pdf, row)), wi)));
     });
 }
@@ -56,13 +60,15 @@ template <class V, class Heuristic, class T> void weigh_bsdf(const TileJob<T>& j
     const V light_count(job.light_count), bsdf_count(job.bsdf_count), zero = number<V>(0);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const V pdf = lanes_of<V>(batch.bsdf_pdf, row);
-        const std::array<V, 2> density{V(light_count * lanes_of<V>(batch.light_pdf, row)), V(bsdf_count * pdf)};
+        const std::array<V, 2> density{V(light_count * lanes_of<V>(batch.light_pdf, row)),
+                                       V(bsdf_count * pdf)};
         const V weight = Heuristic::weight(density, 1) / (bsdf_count * pdf);
         const Vec3<V> share =
             batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) * weight;
         const auto counts = pdf > zero;
-        batch.contribution.set(row, Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
-                                            select(counts, share.z, zero)));
+        batch.contribution.set(row,
+                               Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
+                                       select(counts, share.z, zero)));
     });
 }
 
@@ -75,8 +81,9 @@ template <class V, class T> void weigh_alone(const TileJob<T>&, Batch<T>& batch)
         const Vec3<V> share =
             batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) / pdf;
         const auto counts = pdf > zero;
-        batch.contribution.set(row, Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
-                                            select(counts, share.z, zero)));
+        batch.contribution.set(row,
+                               Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
+                                       select(counts, share.z, zero)));
     });
 }
 

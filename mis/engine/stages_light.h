@@ -6,10 +6,12 @@
 namespace mis {
 inline namespace MIS_ISA {
 
-// The light half: numbers → choose → draw in the cap → BSDF → weigh → occlusion → add. V is the lanes' type, T its number.
+// The light half: numbers → choose → draw in the cap → BSDF → weigh → occlusion → add. V is the
+// lanes' type, T its number.
 
 /// bits → light, probability. Reads the tables that prepare left.
-template <class Policy, class Table, class T> void choose_light(const TileJob<T>& job, Batch<T>& batch)
+template <class Policy, class Table, class T>
+void choose_light(const TileJob<T>& job, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
@@ -34,8 +36,8 @@ template <class Table, class T> void price_light(const TileJob<T>&, Batch<T>& ba
     }
 }
 
-/// light → to_center, radius, gap2, and radiance · radius in `radiance`. One packed record per row, in double until
-/// the difference is taken. A row without a light gets a black one.
+/// light → to_center, radius, gap2, and radiance · radius in `radiance`. One packed record per row,
+/// in double until the difference is taken. A row without a light gets a black one.
 template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
 {
     const auto padded = static_cast<int>((batch.rows + 15) / 16 * 16);
@@ -59,7 +61,8 @@ template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
 
 template <class V, class T> MIS_INLINE Cap<V> cap_of_row(const Batch<T>& batch, int row)
 {
-    // A point that rounding puts onto the light sees a hemisphere of it, never the root of a negative number.
+    // A point that rounding puts onto the light sees a hemisphere of it, never the root of a
+    // negative number.
     const V gap2 = max_of(lanes_of<V>(batch.gap2, row), number<V>(1e-37));
     return cap_towards(batch.to_center.template get<V>(row), lanes_of<V>(batch.radius, row), gap2);
 }
@@ -76,27 +79,34 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
         batch.offset.set(row, draw.offset);
         set_lanes(batch.distance, row, draw.distance);
         const V inverse_pdf_sin = cap.sin_max * draw.inverse_pdf_sin2;
-        // 1/pdf = sin² · inverse_pdf_sin2, taken one sine at a time: the square of a tiny radius is no normal number.
+        // 1/pdf = sin² · inverse_pdf_sin2, taken one sine at a time: the square of a tiny radius is
+        // no normal number.
         const V pdf = number<V>(1) / max_of(cap.sin_max * inverse_pdf_sin, number<V>(1e-45));
         set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
-        batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) / cap.distance * inverse_pdf_sin));
+        batch.radiance.set(
+            row, Vec3<V>(batch.radiance.template get<V>(row) / cap.distance * inverse_pdf_sin));
     });
 }
 
-/// light, wi → light_pdf, and the radiance of the light in `radiance`: for a direction that another technique drew.
-template <class V, class Technique, class T> void pdf_of_light(const TileJob<T>& job, Batch<T>& batch)
+/// light, wi → light_pdf, and the radiance of the light in `radiance`: for a direction that another
+/// technique drew.
+template <class V, class Technique, class T>
+void pdf_of_light(const TileJob<T>& job, Batch<T>& batch)
 {
     fetch_light(job, batch);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Cap<V> cap = cap_of_row<V>(batch, row);
         const Vec3<V> n = batch.n.template get<V>(row), wi = batch.wi.template get<V>(row);
-        set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * Technique::pdf(cap, n, V(dot(n, wi)))));
+        set_lanes(batch.light_pdf, row,
+                  V(lanes_of<V>(batch.probability, row) * Technique::pdf(cap, n, V(dot(n, wi)))));
         batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) / cap.radius));
     });
 }
 
-/// contribution (f cos θ), densities → contribution (share of the estimate). `radiance` is over the cap's pdf here.
-template <class V, class Heuristic, class T> void weigh_light(const TileJob<T>& job, Batch<T>& batch)
+/// contribution (f cos θ), densities → contribution (share of the estimate). `radiance` is over the
+/// cap's pdf here.
+template <class V, class Heuristic, class T>
+void weigh_light(const TileJob<T>& job, Batch<T>& batch)
 {
     const V light_count(job.light_count), bsdf_count(job.bsdf_count), zero = number<V>(0);
     for_each_lane_group<V>(batch.rows, [&](int row) {
@@ -107,8 +117,9 @@ template <class V, class Heuristic, class T> void weigh_light(const TileJob<T>& 
         const Vec3<V> share =
             batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) * weight;
         const auto counts = probability > zero;
-        batch.contribution.set(row, Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
-                                            select(counts, share.z, zero)));
+        batch.contribution.set(row,
+                               Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
+                                       select(counts, share.z, zero)));
     });
 }
 
@@ -120,13 +131,17 @@ template <class T> double solid_angle(const TileJob<T>& job, LightIndex j, const
 }
 
 /// The direction of a light draw without the rounding to T: axis in double, plus the offset.
-template <class T> Vec3<double> exact_direction(const TileJob<T>& job, const Batch<T>& batch, int row)
+template <class T>
+Vec3<double> exact_direction(const TileJob<T>& job, const Batch<T>& batch, int row)
 {
-    const Light& light = (*job.lights)[static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)])];
-    return normalized(light.center - shading_point(job, batch, row).x) + vec_cast<double>(batch.offset.at(row));
+    const Light& light =
+        (*job.lights)[static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)])];
+    return normalized(light.center - shading_point(job, batch, row).x) +
+           vec_cast<double>(batch.offset.at(row));
 }
 
-/// Where a light draw meets its own light; at the rim, where rounding may miss it, the nearest point of the ray.
+/// Where a light draw meets its own light; at the rim, where rounding may miss it, the nearest
+/// point of the ray.
 template <class T>
 LightHit own_hit(const TileJob<T>& job, const Batch<T>& batch, int row, const Vec3<double>& wi)
 {
@@ -137,7 +152,8 @@ LightHit own_hit(const TileJob<T>& job, const Batch<T>& batch, int row, const Ve
     return {j, distance < std::numeric_limits<double>::infinity() ? distance : dot(to_center, wi)};
 }
 
-/// The union's density for a light draw: the sum over all lights whose cap holds wi, and the radiance of the nearest.
+/// The union's density for a light draw: the sum over all lights whose cap holds wi, and the
+/// radiance of the nearest.
 template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
@@ -153,13 +169,15 @@ template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch
         job.hierarchy->for_each_along(x, wi, [&](const LightHit& hit) {
             if (hit.light == chosen) return;
             others += table.probability(hit.light) / (solid_angle(job, hit.light, x) * own);
-            if (hit.distance < nearest.distance || (hit.distance == nearest.distance && hit.light < nearest.light))
+            if (hit.distance < nearest.distance ||
+                (hit.distance == nearest.distance && hit.light < nearest.light))
                 nearest = hit;
         });
         const T ratio = static_cast<T>(1 / (1 + others));  // own density over the sum
         batch.light_pdf[i] /= ratio;
         if (nearest.light != chosen) {
-            const Vec3<double> seen = radiance((*job.lights)[static_cast<std::size_t>(nearest.light)]);
+            const Vec3<double> seen =
+                radiance((*job.lights)[static_cast<std::size_t>(nearest.light)]);
             batch.radiance.put(row, vec_cast<T>(seen * solid_angle(job, chosen, x)));
             batch.distance[i] = static_cast<T>(nearest.distance);
         }
@@ -175,11 +193,15 @@ template <class Table, class T> void sum_bsdf_draw(const TileJob<T>& job, Batch<
         const Table& table = table_of<Table>(batch, batch.point[i]);
         const Vec3<double> x = shading_point(job, batch, row).x;
         const Vec3<double> wi = vec_cast<double>(batch.wi.at(row));
-        double density = 0;
+        double met = 0, others = 0;
         job.hierarchy->for_each_along(x, wi, [&](const LightHit& hit) {
-            density += table.probability(hit.light) / solid_angle(job, hit.light, x);
+            (hit.light == batch.light[i] ? met : others) +=
+                table.probability(hit.light) / solid_angle(job, hit.light, x);
         });
-        batch.light_pdf[i] = static_cast<T>(density);
+        // A factor to what the technique said of the light that was met: exactly 1 where its cap is
+        // the only one.
+        if (met > 0) batch.light_pdf[i] *= static_cast<T>((met + others) / met);
+        else batch.light_pdf[i] = static_cast<T>(others);
     }
 }
 

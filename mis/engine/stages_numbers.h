@@ -6,19 +6,21 @@
 namespace mis {
 inline namespace MIS_ISA {
 
-// The random numbers of one draw of every row. Counters are gathered first, so that what remains is one loop without a
-// branch, which compilers turn into lanes.
+// The random numbers of one draw of every row. Counters are gathered first, so that what remains is
+// one loop without a branch, which compilers turn into lanes.
 
 struct WordColumns {
     alignas(64) Column<std::uint32_t> a, b, c, d;
 };
 
-template <class T> void gather_counters(const TileJob<T>& job, const Batch<T>& batch, Block block, WordColumns& words)
+template <class T>
+void gather_counters(const TileJob<T>& job, const Batch<T>& batch, Block block, WordColumns& words)
 {
     for (int row = 0; row < batch.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
         const std::uint64_t sample = batch.sample_number[static_cast<std::size_t>(batch.slot[i])];
-        const Words start = counter_words({shading_point(job, batch, row).id, sample, batch.draw}, block);
+        const Words start =
+            counter_words({shading_point(job, batch, row).id, sample, batch.draw}, block);
         words.a[i] = start[0], words.b[i] = start[1], words.c[i] = start[2], words.d[i] = start[3];
     }
 }

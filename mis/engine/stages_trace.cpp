@@ -67,8 +67,8 @@ template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
 template <class T> bool draws_light(const TileJob<T>& job, const Batch<T>& batch, int row)
 {
     const auto slot = static_cast<std::size_t>(batch.slot[static_cast<std::size_t>(row)]);
-    const Words words =
-        random_words(job.seed, {shading_point(job, batch, row).id, batch.sample_number[slot], 0}, Block::bsdf);
+    const Words words = random_words(
+        job.seed, {shading_point(job, batch, row).id, batch.sample_number[slot], 0}, Block::bsdf);
     return words[0] < 0x8000'0000U;
 }
 
@@ -90,7 +90,8 @@ template <class T> void meet_lights(const TileJob<T>& job, Batch<T>& batch)
     keep_rows(batch, [&](int row) {
         const auto i = static_cast<std::size_t>(row);
         if (is_zero(batch.wi, row) || (is_screened && batch.candidate[i] == 0)) return false;
-        const LightHit hit = job.hierarchy->nearest(shading_point(job, batch, row).x, vec_cast<double>(batch.wi.at(row)));
+        const LightHit hit = job.hierarchy->nearest(shading_point(job, batch, row).x,
+                                                    vec_cast<double>(batch.wi.at(row)));
         batch.light[i] = hit.light;
         batch.distance[i] = static_cast<T>(hit.distance);
         return hit.light >= 0;
@@ -125,14 +126,15 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
 
 template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
 {
-    std::array<ShadowRay, batch_capacity> rays;      // NOLINT: filled as far as it is read
+    std::array<ShadowRay, batch_capacity> rays;       // NOLINT: filled as far as it is read
     std::array<std::int32_t, batch_capacity> row_of;  // NOLINT
     std::array<std::uint8_t, batch_capacity> hidden;  // NOLINT
     std::size_t count = 0;
     for (int row = 0; row < batch.rows; ++row) {
         if (is_zero(batch.contribution, row)) continue;
         row_of[count] = row;
-        rays[count++] = {shading_point(job, batch, row).ray_origin, vec_cast<float>(batch.wi.at(row)),
+        rays[count++] = {shading_point(job, batch, row).ray_origin,
+                         vec_cast<float>(batch.wi.at(row)),
                          static_cast<float>(batch.distance[static_cast<std::size_t>(row)])};
     }
     job.surfaces->occluded(std::span(rays).first(count), std::span(hidden).first(count));
@@ -154,14 +156,14 @@ template <class T> void add_contributions(const TileJob<T>&, Batch<T>& batch)
     }
 }
 
-#define MIS_INSTANTIATE(T)                                               \
-    template void start_rows(const TileJob<T>&, Batch<T>&);              \
-    template void keep_light_rows(const TileJob<T>&, Batch<T>&);         \
-    template void keep_bsdf_rows(const TileJob<T>&, Batch<T>&);          \
-    template void meet_lights(const TileJob<T>&, Batch<T>&);             \
-    template void fetch_radiance(const TileJob<T>&, Batch<T>&);          \
-    template void hide_by_lights(const TileJob<T>&, Batch<T>&);          \
-    template void hide_by_surfaces(const TileJob<T>&, Batch<T>&);        \
+#define MIS_INSTANTIATE(T)                                        \
+    template void start_rows(const TileJob<T>&, Batch<T>&);       \
+    template void keep_light_rows(const TileJob<T>&, Batch<T>&);  \
+    template void keep_bsdf_rows(const TileJob<T>&, Batch<T>&);   \
+    template void meet_lights(const TileJob<T>&, Batch<T>&);      \
+    template void fetch_radiance(const TileJob<T>&, Batch<T>&);   \
+    template void hide_by_lights(const TileJob<T>&, Batch<T>&);   \
+    template void hide_by_surfaces(const TileJob<T>&, Batch<T>&); \
     template void add_contributions(const TileJob<T>&, Batch<T>&);
 MIS_INSTANTIATE(float)
 MIS_INSTANTIATE(double)

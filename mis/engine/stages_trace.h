@@ -4,7 +4,8 @@
 
 namespace mis {
 
-// The stages that know no policy, technique, BSDF or heuristic: rows, rays and sums. Instantiated for float and double.
+// The stages that know no policy, technique, BSDF or heuristic: rows, rays and sums. Instantiated
+// for float and double.
 
 /// One row per sample, in order: slot, point, n, wo.
 template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch);

@@ -9,7 +9,8 @@ namespace mis {
 
 void TileTotals::add(const TileTotals& other)
 {
-    for (std::size_t k = 0; k < stage_seconds.size(); ++k) stage_seconds[k] += other.stage_seconds[k];
+    for (std::size_t k = 0; k < stage_seconds.size(); ++k)
+        stage_seconds[k] += other.stage_seconds[k];
     seconds += other.seconds;
     samples += other.samples;
     shadow_rays += other.shadow_rays;
@@ -18,12 +19,14 @@ void TileTotals::add(const TileTotals& other)
 
 namespace {
 
-/// Tables of a batch's points may take this much, so that they stay in the second-level cache; one point always fits.
+/// Tables of a batch's points may take this much, so that they stay in the second-level cache; one
+/// point always fits.
 constexpr std::size_t scratch_bytes = std::size_t{1} << 20;
 
 }  // namespace
 
-/// One run over a tile: fills batches with the samples of its points, in order, and takes their values in.
+/// One run over a tile: fills batches with the samples of its points, in order, and takes their
+/// values in.
 template <class T> struct Workspace<T>::Run {
     const TileJob<T>& job;
     const Pipeline<T>& pipeline;
@@ -93,7 +96,8 @@ template <class T> struct Workspace<T>::Run {
         const std::size_t lights = pipeline.draws_every_light ? job.lights->size() : 1;
         const std::uint32_t light_draws = static_cast<std::uint32_t>(pipeline.light_draws * lights);
         for (std::uint32_t draw = 0; draw < light_draws; ++draw) run_half(pipeline.light, draw);
-        for (int draw = 0; draw < pipeline.bsdf_draws; ++draw) run_half(pipeline.bsdf, static_cast<std::uint32_t>(draw));
+        for (int draw = 0; draw < pipeline.bsdf_draws; ++draw)
+            run_half(pipeline.bsdf, static_cast<std::uint32_t>(draw));
         take_in();
         batch.samples = 0;
     }
@@ -117,13 +121,17 @@ template <class T> struct Workspace<T>::Run {
             luminances[i] = luminance(batch.value.at(static_cast<int>(i)));
         for (std::size_t first = 0; first < static_cast<std::size_t>(batch.samples);) {
             const std::uint64_t number = batch.sample_number[first] - range.first;
-            const auto left_of_chunk = static_cast<std::size_t>(range.chunk) - number % static_cast<std::size_t>(range.chunk);
-            const std::size_t count = std::min(left_of_chunk, static_cast<std::size_t>(batch.samples) - first);
-            PointResult& result = results[batch.tile_point[static_cast<std::size_t>(batch.sample_point[first])]];
+            const auto left_of_chunk = static_cast<std::size_t>(range.chunk) -
+                                       number % static_cast<std::size_t>(range.chunk);
+            const std::size_t count =
+                std::min(left_of_chunk, static_cast<std::size_t>(batch.samples) - first);
+            PointResult& result =
+                results[batch.tile_point[static_cast<std::size_t>(batch.sample_point[first])]];
             chunk.merge(Moments::of(std::span<const T>(&luminances[first], count)));
             for (std::size_t i = first; i < first + count; ++i)
                 result.radiance_sum += vec_cast<double>(batch.value.at(static_cast<int>(i)));
-            if (count == left_of_chunk) end_chunk(result, number / static_cast<std::size_t>(range.chunk));
+            if (count == left_of_chunk)
+                end_chunk(result, number / static_cast<std::size_t>(range.chunk));
             first += count;
         }
     }
@@ -158,14 +166,16 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     batch_->invalid = batch_->shadow_rays = 0;
     scratch_->clear();
     Run run{job, pipeline, range, results, weights, totals, *batch_, *scratch_, luminance_};
-    run.stage_ticks[static_cast<std::size_t>(StageKind::prepare)] = pipeline.looks_at_point ? ticks() - start_ticks : 0;
+    run.stage_ticks[static_cast<std::size_t>(StageKind::prepare)] =
+        pipeline.looks_at_point ? ticks() - start_ticks : 0;
     run.all();
 
     TileTotals result;
     const double all_ticks = static_cast<double>(std::max<std::uint64_t>(ticks() - start_ticks, 1));
     result.seconds = thread_seconds() - start;
     for (std::size_t k = 0; k < run.stage_ticks.size(); ++k)
-        result.stage_seconds[k] = static_cast<double>(run.stage_ticks[k]) / all_ticks * result.seconds;
+        result.stage_seconds[k] =
+            static_cast<double>(run.stage_ticks[k]) / all_ticks * result.seconds;
     result.samples = job.points.size() * static_cast<std::uint64_t>(range.samples());
     result.shadow_rays = batch_->shadow_rays;
     result.invalid = batch_->invalid;

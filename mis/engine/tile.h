@@ -13,11 +13,14 @@ struct PointResult {
     Moments luminance;
     Vec3<double> radiance_sum{0};  ///< RGB, over all samples
 
-    Vec3<double> mean() const { return luminance.count == 0 ? Vec3<double>(0) : radiance_sum / double(luminance.count); }
+    Vec3<double> mean() const
+    {
+        return luminance.count == 0 ? Vec3<double>(0) : radiance_sum / double(luminance.count);
+    }
 };
 
-/// Which samples of every point to take: `chunks` chunks of `chunk` samples, numbered from `first` on. A chunk belongs
-/// to one replicate.
+/// Which samples of every point to take: `chunks` chunks of `chunk` samples, numbered from `first`
+/// on. A chunk belongs to one replicate.
 struct SampleRange {
     std::uint64_t first = 0;
     int chunk = 1, chunks = 1;
@@ -34,7 +37,7 @@ struct ChunkTotals {
 /// What a tile's run cost.
 struct TileTotals {
     std::array<double, stage_names.size()> stage_seconds{};  ///< CPU
-    double seconds = 0;  ///< CPU, all together
+    double seconds = 0;                                      ///< CPU, all together
     std::uint64_t samples = 0, shadow_rays = 0, invalid = 0;
 
     void add(const TileTotals& other);
@@ -45,10 +48,12 @@ template <class T> class Workspace {
 public:
     Workspace() : batch_(std::make_unique<Batch<T>>()) {}
 
-    /// Runs a pipeline over a tile. job.points are its points; results, weights (1/(μ² + ε²), or empty) run along with
-    /// them, totals along with range.chunks (or empty). Moments are merged in the order of the samples.
-    TileTotals run(TileJob<T> job, const Pipeline<T>& pipeline, const SampleRange& range, std::span<PointResult> results,
-                   std::span<const double> weights, std::span<ChunkTotals> totals);
+    /// Runs a pipeline over a tile. job.points are its points; results, weights (1/(μ² + ε²), or
+    /// empty) run along with them, totals along with range.chunks (or empty). Moments are merged in
+    /// the order of the samples.
+    TileTotals run(TileJob<T> job, const Pipeline<T>& pipeline, const SampleRange& range,
+                   std::span<PointResult> results, std::span<const double> weights,
+                   std::span<ChunkTotals> totals);
 
 private:
     struct Run;

@@ -8,7 +8,8 @@ namespace mis {
 struct BalanceHeuristic {
     static constexpr std::string_view name = "balance";
     static constexpr std::string_view summary = "in proportion to the density";
-    template <class T, std::size_t N> MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
+    template <class T, std::size_t N>
+    MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
     {
         T sum = number<T>(0);
         for (const T& d : density) sum += density_ratio(d, density[i]);

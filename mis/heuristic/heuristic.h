@@ -8,15 +8,23 @@
 
 namespace mis {
 
-// How much does each technique count? weight(density, i): the weight of a draw of technique i where the techniques
-// have these densities (n_i · pdf_i, per steradian). Weights sum to 1 over the techniques for all densities in
-// [1e-38, 1e38]; a technique of density 0 has weight 0, of infinite density 1 (shared where both are).
+// How much does each technique count? weight(density, i): the weight of a draw of technique i where
+// the techniques have these densities (n_i · pdf_i, per steradian). Weights sum to 1 over the
+// techniques for all densities in [1e-38, 1e38]; a technique of density 0 has weight 0, of infinite
+// density 1 (shared where both are).
 
 template <class H, class T>
-concept Heuristic = requires(const std::array<T, 2>& density, std::size_t i) {
-    { H::name } -> std::convertible_to<std::string_view>;
-    { H::summary } -> std::convertible_to<std::string_view>;
-    { H::weight(density, i) } -> std::same_as<T>;
+concept Heuristic = requires(const std::array<T, 2>& density, std::size_t i)
+{
+    {
+        H::name
+        } -> std::convertible_to<std::string_view>;
+    {
+        H::summary
+        } -> std::convertible_to<std::string_view>;
+    {
+        H::weight(density, i)
+        } -> std::same_as<T>;
 };
 
 /// a/b, where two infinities (and two zeros) are as one to one.

@@ -8,7 +8,8 @@ namespace mis {
 struct PowerHeuristic {
     static constexpr std::string_view name = "power";
     static constexpr std::string_view summary = "in proportion to the squared density";
-    template <class T, std::size_t N> MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
+    template <class T, std::size_t N>
+    MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
     {
         T sum = number<T>(0);
         // Divide, then square: p² overflows, the ratio does not.

@@ -8,7 +8,8 @@ namespace mis {
 struct SingleHeuristic {
     static constexpr std::string_view name = "light";
     static constexpr std::string_view summary = "the light draw alone, no BSDF draw";
-    template <class T, std::size_t N> MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
+    template <class T, std::size_t N>
+    MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
     {
         return weight_if_possible(density[i], number<T>(i == 0 ? 1 : 0));
     }

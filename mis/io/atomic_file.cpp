@@ -115,8 +115,8 @@ void write_text(const std::string& path, std::string_view text)
 {
     if (path == "-") {
         if (const int error = write_all(STDOUT_FILENO, text))
-            throw WriteError(
-                fmt::format("standard output: cannot be written: {}", std::generic_category().message(error)));
+            throw WriteError(fmt::format("standard output: cannot be written: {}",
+                                         std::generic_category().message(error)));
         return;
     }
     AtomicFile file(path);

@@ -9,7 +9,10 @@ namespace mis {
 
 namespace {
 
-std::string many(std::size_t n, std::string_view one) { return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s"); }
+std::string many(std::size_t n, std::string_view one)
+{
+    return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
+}
 
 /// Words in lines of 80 columns, behind a label.
 std::string paragraph(const std::string& label, const std::string& text)
@@ -37,24 +40,30 @@ std::string paragraph(const std::string& label, const std::string& text)
 
 std::string explanation_text(const Explanation& found)
 {
-    std::string text = paragraph("scene", found.name.empty() ? found.file : found.name + " (" + found.file + ")");
+    std::string text =
+        paragraph("scene", found.name.empty() ? found.file : found.name + " (" + found.file + ")");
     std::string lights = many(found.lights, "light");
     if (found.black_lights > 0) lights += fmt::format(", {} of them black", found.black_lights);
-    lights += fmt::format("; radius {:.4g} to {:.4g}, power {:.4g} to {:.4g} W (luminance)", found.radius.low,
-                          found.radius.high, found.power.low, found.power.high);
+    lights += fmt::format("; radius {:.4g} to {:.4g}, power {:.4g} to {:.4g} W (luminance)",
+                          found.radius.low, found.radius.high, found.power.low, found.power.high);
     text += paragraph("lights", lights);
-    text += paragraph("surfaces", many(found.quads, "quad") + ", " + many(found.spheres, "sphere") + ", " +
-                                      fmt::format("{} {} of ", found.meshes, found.meshes == 1 ? "mesh" : "meshes") +
-                                      many(found.triangles, "triangle"));
+    text += paragraph(
+        "surfaces",
+        many(found.quads, "quad") + ", " + many(found.spheres, "sphere") + ", " +
+            fmt::format("{} {} of ", found.meshes, found.meshes == 1 ? "mesh" : "meshes") +
+            many(found.triangles, "triangle"));
     if (found.width > 0)
-        text += paragraph("picture", fmt::format("{} x {} pixels, of which {} show no surface", found.width, found.height,
-                                                 found.background_pixels));
+        text +=
+            paragraph("picture", fmt::format("{} x {} pixels, of which {} show no surface",
+                                             found.width, found.height, found.background_pixels));
     if (found.probes > 0) text += paragraph("probes", std::to_string(found.probes));
-    text += paragraph("shading points",
-                      fmt::format("{} in {}{}", found.shading_points, many(found.tiles, "tile"),
-                                  found.dark_points > 0
-                                      ? fmt::format("; {} see no light: inside one, or seen from below", found.dark_points)
-                                      : ""));
+    text +=
+        paragraph("shading points",
+                  fmt::format("{} in {}{}", found.shading_points, many(found.tiles, "tile"),
+                              found.dark_points > 0
+                                  ? fmt::format("; {} see no light: inside one, or seen from below",
+                                                found.dark_points)
+                                  : ""));
     for (const MaterialUse& material : found.materials)
         text += paragraph("material", fmt::format("{} ({}), {}", material.name, material.type,
                                                   many(material.shading_points, "point")));
@@ -74,7 +83,8 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
     for (const EffectPlan& e : found.effects)
         effects[e.name] = {{"on", e.on}, {"share", e.on ? 1.0 : 0.0}, {"why", e.why}};
     for (const MaterialUse& m : found.materials)
-        materials.push_back({{"name", m.name}, {"type", m.type}, {"shading_points", m.shading_points}});
+        materials.push_back(
+            {{"name", m.name}, {"type", m.type}, {"shading_points", m.shading_points}});
     const Json scene{{"file", found.file},
                      {"name", found.name},
                      {"lights", found.lights},
@@ -93,8 +103,9 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
                      {"probes", found.probes},
                      {"materials", materials},
                      {"effects", effects}};
-    const Json report{{"format", "mis-explain/1"}, {"version", MIS_VERSION}, {"command", run.command},
-                      {"seed", run.seed},          {"threads", run.threads}, {"scenes", Json::array({scene})}};
+    const Json report{{"format", "mis-explain/1"}, {"version", MIS_VERSION},
+                      {"command", run.command},    {"seed", run.seed},
+                      {"threads", run.threads},    {"scenes", Json::array({scene})}};
     write_text(path, report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

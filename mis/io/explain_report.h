@@ -18,6 +18,7 @@ struct RunHeader {
 std::string explanation_text(const Explanation& found);
 
 /// As `mis-explain/1`: the outer shape of mis-report/1. "-" is standard output. Throws WriteError.
-void write_explanation_json(const Explanation& found, const RunHeader& run, const std::string& path);
+void write_explanation_json(const Explanation& found, const RunHeader& run,
+                            const std::string& path);
 
 }  // namespace mis

@@ -15,7 +15,8 @@ namespace {
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& file, const Image& image, const std::map<std::string, std::string>& metadata)
+void write_exr(const std::filesystem::path& file, const Image& image,
+               const std::map<std::string, std::string>& metadata)
 {
     AtomicFile whole(file.string());
     const auto output = OIIO::ImageOutput::create("openexr");
@@ -26,7 +27,8 @@ void write_exr(const std::filesystem::path& file, const Image& image, const std:
     for (const auto& [key, value] : metadata) spec.attribute(key, value);
     if (!output->open(whole.temporary_path(), spec)) fail(file, output->geterror());
     static_assert(sizeof(Vec3<float>) == 3 * sizeof(float));
-    if (!output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data())) fail(file, output->geterror());
+    if (!output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data()))
+        fail(file, output->geterror());
     if (!output->close()) fail(file, output->geterror());
     whole.commit();
 }

@@ -13,14 +13,15 @@
 namespace mis {
 namespace {
 
-/// Builds the document event by event, so that what nlohmann's own parser lets pass is seen: a key given twice, a
-/// number that rounds to 0, nesting without end.
+/// Builds the document event by event, so that what nlohmann's own parser lets pass is seen: a key
+/// given twice, a number that rounds to 0, nesting without end.
 class DocumentBuilder final : public nlohmann::json_sax<Json> {
 public:
-    DocumentBuilder(std::string_view text, const std::filesystem::path& file, std::string_view streamed_list,
-                    const ElementSink& sink)
+    DocumentBuilder(std::string_view text, const std::filesystem::path& file,
+                    std::string_view streamed_list, const ElementSink& sink)
         : text_(text), file_(file), streamed_list_(streamed_list), sink_(sink)
-    {}
+    {
+    }
 
     Json take_document() { return std::move(document_); }
 
@@ -33,7 +34,8 @@ public:
 
     bool number_float(number_float_t value, const string_t& written) override
     {
-        const std::string_view digits = std::string_view(written).substr(0, written.find_first_of("eE"));
+        const std::string_view digits =
+            std::string_view(written).substr(0, written.find_first_of("eE"));
         if (value == 0 && digits.find_first_of("123456789") != digits.npos) fail_range(written);
         return add(value);
     }
@@ -50,12 +52,14 @@ public:
         level.key = name;
         level.member = &*member;
         if (!is_new)
-            throw SceneError(file_.string(), Problem{pointer(), "the key " + in_quotes(name) + " a second time",
-                                                     "a key is given once", "Remove one of the two."});
+            throw SceneError(file_.string(),
+                             Problem{pointer(), "the key " + in_quotes(name) + " a second time",
+                                     "a key is given once", "Remove one of the two."});
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) override
+    bool parse_error(std::size_t position, const std::string& token,
+                     const nlohmann::detail::exception& error) override
     {
         constexpr int number_out_of_range = 406;
         if (error.id == number_out_of_range) {
@@ -73,7 +77,11 @@ private:
         std::size_t count = 0;   ///< of the values begun, in an array
     };
 
-    bool is_streamed() const { return levels_.size() == 2 && levels_[0].key == streamed_list_ && levels_[1].container->is_array(); }
+    bool is_streamed() const
+    {
+        return levels_.size() == 2 && levels_[0].key == streamed_list_ &&
+               levels_[1].container->is_array();
+    }
 
     void start_value()
     {
@@ -109,9 +117,12 @@ private:
     {
         Json* const placed = place(std::move(container));
         if (levels_.size() >= limits::nesting)
-            throw SceneError(file_.string(),
-                             Problem{pointer(), fmt::format("more than {} levels of brackets and braces", limits::nesting),
-                                     fmt::format("a scene nests at most {} levels", limits::nesting), "Look for a stray bracket."});
+            throw SceneError(
+                file_.string(),
+                Problem{pointer(),
+                        fmt::format("more than {} levels of brackets and braces", limits::nesting),
+                        fmt::format("a scene nests at most {} levels", limits::nesting),
+                        "Look for a stray bracket."});
         levels_.push_back({placed});
         return true;
     }
@@ -127,37 +138,52 @@ private:
     {
         std::string path;
         for (const Level& level : levels_)
-            path += "/" + (level.container->is_array() ? to_text(level.count - 1) : pointer_token(level.key));
+            path += "/" + (level.container->is_array() ? to_text(level.count - 1)
+                                                       : pointer_token(level.key));
         return path;
     }
 
     [[noreturn]] void fail_range(const std::string& written) const
     {
-        throw SceneError(file_.string(), Problem{pointer(), written, "a number lies within the range of a double, 5e-324 to 1.8e308",
-                                                 "Use other units."});
+        throw SceneError(file_.string(),
+                         Problem{pointer(), written,
+                                 "a number lies within the range of a double, 5e-324 to 1.8e308",
+                                 "Use other units."});
     }
 
-    /// message: the parser's own words, "… syntax error while parsing value - invalid literal; last read: '…'; …".
-    [[noreturn]] void fail_syntax(std::size_t byte, const std::string& token, std::string_view message) const
+    /// message: the parser's own words, "… syntax error while parsing value - invalid literal; last
+    /// read: '…'; …".
+    [[noreturn]] void fail_syntax(std::size_t byte, const std::string& token,
+                                  std::string_view message) const
     {
         const std::string_view lead = "syntax error ", echo = "; last read: '";
         const std::size_t start = message.find(lead), echo_start = message.find(echo);
         std::string reason(message.substr(start == message.npos ? 0 : start + lead.size()));
-        if (echo_start != message.npos) reason = message.substr(start + lead.size(), echo_start - start - lead.size());
-        const bool token_is_exact = reason.find("string") != reason.npos || reason.find("number") != reason.npos;
+        if (echo_start != message.npos)
+            reason = message.substr(start + lead.size(), echo_start - start - lead.size());
+        const bool token_is_exact =
+            reason.find("string") != reason.npos || reason.find("number") != reason.npos;
         const auto [line, column] = place_in(text_, byte);
-        throw SceneError(file_.string(),
-                         Problem{fmt::format("line {}, column {}", line, column),
-                                 byte >= text_.size() ? "the end of the text" : in_quotes(token_is_exact && !is_mark(byte) ? token : word_at(byte)),
-                                 fmt::format("this is not JSON ({})", reason), syntax_remedy(byte)});
+        throw SceneError(
+            file_.string(),
+            Problem{fmt::format("line {}, column {}", line, column),
+                    byte >= text_.size()
+                        ? "the end of the text"
+                        : in_quotes(token_is_exact && !is_mark(byte) ? token : word_at(byte)),
+                    fmt::format("this is not JSON ({})", reason), syntax_remedy(byte)});
     }
 
-    bool is_mark(std::size_t byte) const { return std::string_view("{}[],:").find(text_[byte]) != std::string_view::npos; }
+    bool is_mark(std::size_t byte) const
+    {
+        return std::string_view("{}[],:").find(text_[byte]) != std::string_view::npos;
+    }
 
     /// The word around a byte, or the byte if it belongs to none.
     std::string word_at(std::size_t byte) const
     {
-        const auto in_word = [this](std::size_t i) { return i < text_.size() && std::isalnum(static_cast<unsigned char>(text_[i])); };
+        const auto in_word = [this](std::size_t i) {
+            return i < text_.size() && std::isalnum(static_cast<unsigned char>(text_[i]));
+        };
         if (!in_word(byte)) return std::string(text_.substr(byte, 1));
         std::size_t first = byte, end = byte;
         while (first > 0 && in_word(first - 1)) --first;
@@ -169,7 +195,8 @@ private:
     {
         const std::size_t last = text_.substr(0, byte).find_last_not_of(" \t\r\n");
         const bool closing = byte < text_.size() && (text_[byte] == '}' || text_[byte] == ']');
-        if (closing && last != text_.npos && text_[last] == ',') return "Remove the comma before it.";
+        if (closing && last != text_.npos && text_[last] == ',')
+            return "Remove the comma before it.";
         return "Look for a missing comma, quote or bracket there, or just before.";
     }
 
@@ -183,8 +210,8 @@ private:
 
 }  // namespace
 
-Json parse_json(std::string_view text, const std::filesystem::path& file, std::string_view streamed_list,
-                const ElementSink& sink)
+Json parse_json(std::string_view text, const std::filesystem::path& file,
+                std::string_view streamed_list, const ElementSink& sink)
 {
     require_utf8(text, file);
     DocumentBuilder builder(text, file, streamed_list, sink);

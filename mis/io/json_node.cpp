@@ -24,7 +24,9 @@ std::string shown(const Json& value)
     constexpr std::size_t longest = 60, most = 8;
     if (value.is_string()) return in_quotes(value.get_ref<const std::string&>());
     if (value.is_object()) return value.empty() ? "an empty object" : "an object";
-    if (value.is_array() && (value.size() > most || std::any_of(value.begin(), value.end(), [](const Json& v) { return v.is_structured(); })))
+    if (value.is_array() &&
+        (value.size() > most ||
+         std::any_of(value.begin(), value.end(), [](const Json& v) { return v.is_structured(); })))
         return fmt::format("an array of {}", value.size());
     const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
     return text.size() <= longest ? text : fmt::format("an array of {}", value.size());
@@ -59,8 +61,9 @@ void JsonNode::require_keys(std::span<const std::string_view> known) const
     require_object();
     for (const auto& [key, value] : value_->items()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-        at(key, value).fail("the unknown key " + in_quotes(key), "known keys are " + comma_list(known),
-                            did_you_mean(key, known, "Remove it."));
+        at(key, value)
+            .fail("the unknown key " + in_quotes(key), "known keys are " + comma_list(known),
+                  did_you_mean(key, known, "Remove it."));
     }
 }
 
@@ -74,7 +77,8 @@ JsonNode JsonNode::element(std::size_t index) const { return at(index, (*value_)
 
 void JsonNode::require_array(std::size_t size, std::string_view allowed) const
 {
-    if (!value_->is_array() || value_->size() != size) fail_value(std::string(allowed), as_in_format);
+    if (!value_->is_array() || value_->size() != size)
+        fail_value(std::string(allowed), as_in_format);
 }
 
 std::optional<double> JsonNode::maybe_number() const
@@ -91,12 +95,15 @@ double JsonNode::number() const
 
 std::uint64_t JsonNode::whole_number(std::uint64_t low, std::uint64_t high) const
 {
-    const std::string allowed = fmt::format("a whole number between {} and {} belongs here", low, high);
+    const std::string allowed =
+        fmt::format("a whole number between {} and {} belongs here", low, high);
     constexpr double two_64 = 18446744073709551616.0;
     const double number = maybe_number().value_or(-1);
-    if (!(number >= 0 && number < two_64 && number == std::floor(number)) && !value_->is_number_unsigned())
+    if (!(number >= 0 && number < two_64 && number == std::floor(number)) &&
+        !value_->is_number_unsigned())
         fail_value(allowed, "Write a number of this range, without a fraction.");
-    const std::uint64_t whole = value_->is_number_unsigned() ? value_->get<std::uint64_t>() : static_cast<std::uint64_t>(number);
+    const std::uint64_t whole = value_->is_number_unsigned() ? value_->get<std::uint64_t>()
+                                                             : static_cast<std::uint64_t>(number);
     if (whole < low || whole > high) fail_value(allowed, "Write a number of this range.");
     return whole;
 }
@@ -106,7 +113,8 @@ int JsonNode::pixels() const
     const double number = maybe_number().value_or(std::numeric_limits<double>::quiet_NaN());
     constexpr int largest = std::numeric_limits<int>::max();
     if (!(number == std::floor(number) && std::abs(number) <= largest))
-        fail_value(fmt::format("a whole number between 1 and {} belongs here", limits::resolution), as_in_format);
+        fail_value(fmt::format("a whole number between 1 and {} belongs here", limits::resolution),
+                   as_in_format);
     return static_cast<int>(number);
 }
 
@@ -137,7 +145,8 @@ std::string JsonNode::pointer() const
 
 void JsonNode::fail(std::string found, std::string allowed, std::string remedy) const
 {
-    throw SceneError(file_, Problem{pointer(), std::move(found), std::move(allowed), std::move(remedy)});
+    throw SceneError(file_,
+                     Problem{pointer(), std::move(found), std::move(allowed), std::move(remedy)});
 }
 
 void JsonNode::fail_value(std::string allowed, std::string remedy) const

@@ -11,8 +11,9 @@
 
 namespace mis {
 
-/// A value of a document, and where it stands: typed access whose errors name file, pointer and what was found.
-/// A node refers to its parent, which must outlive it; pointers are spelt out only when something is wrong.
+/// A value of a document, and where it stands: typed access whose errors name file, pointer and
+/// what was found. A node refers to its parent, which must outlive it; pointers are spelt out only
+/// when something is wrong.
 class JsonNode {
 public:
     /// The whole document. `file` as the user named it.
@@ -26,7 +27,8 @@ public:
     /// Where an element stands that was handed out by itself.
     JsonNode at(std::size_t index, const Json& value) const { return {*this, {}, index, value}; }
 
-    /// Error unless this is an object whose keys are all among `known`; the nearest known key is offered.
+    /// Error unless this is an object whose keys are all among `known`; the nearest known key is
+    /// offered.
     void require_keys(std::span<const std::string_view> known) const;
 
     std::size_t size() const;                   ///< of an array; an error if it is none
@@ -34,10 +36,11 @@ public:
 
     double number() const;
     std::uint64_t whole_number(std::uint64_t low, std::uint64_t high) const;  ///< low ≤ n ≤ high
-    int pixels() const;  ///< a whole number of any sign that an int holds; its range is scene/validate's matter
+    int pixels() const;  ///< a whole number of any sign that an int holds; its range is
+                         ///< scene/validate's matter
     const std::string& string() const;
-    Vec3<double> vector() const;            ///< [x, y, z]
-    Vec3<double> color() const;             ///< [r, g, b], or a number for all three
+    Vec3<double> vector() const;                 ///< [x, y, z]
+    Vec3<double> color() const;                  ///< [r, g, b], or a number for all three
     std::optional<double> maybe_number() const;  ///< nothing if this is no number
     void require_object() const;
     void require_array(std::size_t size, std::string_view allowed) const;
@@ -46,7 +49,7 @@ public:
     std::string_view file() const { return file_; }
     const Json& value() const { return *value_; }
 
-    /// Throws SceneError about this value, or about one that stands `below` it ("/radius").
+    /// Throws SceneError about this value.
     [[noreturn]] void fail(std::string found, std::string allowed, std::string remedy) const;
     /// The same with the value itself as what was found.
     [[noreturn]] void fail_value(std::string allowed, std::string remedy) const;
@@ -54,7 +57,8 @@ public:
 private:
     JsonNode(const JsonNode& parent, std::string_view key, std::size_t index, const Json& value)
         : value_(&value), parent_(&parent), key_(key), index_(index), file_(parent.file_)
-    {}
+    {
+    }
 
     const Json* value_;
     const JsonNode* parent_ = nullptr;

@@ -19,21 +19,24 @@ using Words = std::vector<std::string>;
 
 bool is_number_type(const std::string& word)
 {
-    static constexpr std::array<std::string_view, 16> types{"char",  "uchar",  "short", "ushort", "int",   "uint",   "float",   "double",
-                                                            "int8",  "uint8",  "int16", "uint16", "int32", "uint32", "float32", "float64"};
+    static constexpr std::array<std::string_view, 16> types{
+        "char", "uchar", "short", "ushort", "int",   "uint",   "float",   "double",
+        "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64"};
     return std::find(types.begin(), types.end(), word) != types.end();
 }
 
 bool is_format(const Words& words)
 {
     return words.size() == 3 && words[2] == "1.0" &&
-           (words[1] == "ascii" || words[1] == "binary_little_endian" || words[1] == "binary_big_endian");
+           (words[1] == "ascii" || words[1] == "binary_little_endian" ||
+            words[1] == "binary_big_endian");
 }
 
 bool is_property(const Words& words)
 {
     if (words.size() == 3) return is_number_type(words[1]);
-    return words.size() == 5 && words[1] == "list" && is_number_type(words[2]) && is_number_type(words[3]);
+    return words.size() == 5 && words[1] == "list" && is_number_type(words[2]) &&
+           is_number_type(words[3]);
 }
 
 /// Whether "element NAME COUNT" can be true: each one takes a byte at least.
@@ -70,10 +73,15 @@ void require_ply_header(const std::filesystem::path& file)
         if (number > 1 && words == Words{"end_header"}) return;
         const bool is_good = number == 1 ? words == Words{"ply"} : is_header_line(words, file_size);
         if (!is_good)
-            throw SceneError(file.string(), Problem{"", fmt::format("{} in line {} of its header", in_quotes(line), number),
-                                                    "a PLY header has ply, format, comment, element and property lines", "Mend the file."});
+            throw SceneError(
+                file.string(),
+                Problem{"", fmt::format("{} in line {} of its header", in_quotes(line), number),
+                        "a PLY header has ply, format, comment, element and property lines",
+                        "Mend the file."});
     }
-    throw SceneError(file.string(), Problem{"", "a PLY header without an end", "a PLY header ends in the line \"end_header\"", "Mend the file."});
+    throw SceneError(file.string(),
+                     Problem{"", "a PLY header without an end",
+                             "a PLY header ends in the line \"end_header\"", "Mend the file."});
 }
 
 }  // namespace mis

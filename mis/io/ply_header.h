@@ -4,8 +4,9 @@
 
 namespace mis {
 
-/// Throws SceneError, with an empty pointer, unless the file starts with a well-formed PLY header whose counts can be
-/// those of a file of its size. Assimp 5.2 never returns from some headers that are not.
+/// Throws SceneError, with an empty pointer, unless the file starts with a well-formed PLY header
+/// whose counts can be those of a file of its size. Assimp 5.2 never returns from some headers that
+/// are not.
 void require_ply_header(const std::filesystem::path& file);
 
 }  // namespace mis

@@ -30,13 +30,15 @@ double uniform_between(double low, double high, std::uint64_t bits)
     return std::min(low + u * (high - low), high);
 }
 
-/// low · (high/low)^u, u from the top 56 bits. The power is a product of square roots, one per set bit of u, which are
-/// correctly rounded everywhere; exp and log are not, and would give another scene on another machine.
+/// low · (high/low)^u, u from the top 56 bits. The power is a product of square roots, one per set
+/// bit of u, which are correctly rounded everywhere; exp and log are not, and would give another
+/// scene on another machine.
 class LogUniform {
 public:
     explicit LogUniform(const std::array<double, 2>& range) : range_(range)
     {
-        double root = std::sqrt(range[1]) / std::sqrt(range[0]);  // ratio^(1/2); the ratio itself may overflow
+        double root = std::sqrt(range[1]) /
+                      std::sqrt(range[0]);  // ratio^(1/2); the ratio itself may overflow
         for (auto& byte : factors_) {
             byte[0] = 1;
             for (unsigned bit = 128; bit > 0; bit /= 2, root = std::sqrt(root)) byte[bit] = root;
@@ -47,12 +49,14 @@ public:
     double operator()(std::uint64_t bits) const
     {
         double value = range_[0];
-        for (unsigned i = 0; i < factors_.size(); ++i) value *= factors_[i][(bits >> (56 - 8 * i)) & 255];
+        for (unsigned i = 0; i < factors_.size(); ++i)
+            value *= factors_[i][(bits >> (56 - 8 * i)) & 255];
         return std::clamp(value, range_[0], range_[1]);
     }
 
 private:
-    /// Factors of single bits are known; every other byte is its highest bit's factor times the rest's.
+    /// Factors of single bits are known; every other byte is its highest bit's factor times the
+    /// rest's.
     static void fill_combined(std::array<double, 256>& byte)
     {
         for (unsigned i = 1; i < 256; ++i) {

@@ -16,8 +16,9 @@ struct RandomLights {
     std::array<double, 2> power{};      ///< > 0, watts
 };
 
-/// Appends `lights.count` grey lights: position uniform in the box, radius and power log-uniform, all independent.
-/// Reproducible to the last bit on every machine: docs/scene-format.md, "Random lights", states the generator.
+/// Appends `lights.count` grey lights: position uniform in the box, radius and power log-uniform,
+/// all independent. Reproducible to the last bit on every machine: docs/scene-format.md, "Random
+/// lights", states the generator.
 void append_random_lights(const RandomLights& lights, Lights& to);
 
 }  // namespace mis

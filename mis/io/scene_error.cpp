@@ -20,9 +20,11 @@ std::string printable(std::string_view text)
 }  // namespace
 
 SceneError::SceneError(std::string_view file, const Problem& p)
-    : std::runtime_error(fmt::format("{}{}{}: found {}; {}\n    {}", printable(file), p.pointer.empty() ? "" : ": ",
-                                     printable(p.pointer), printable(p.found), printable(p.allowed), printable(p.remedy))),
+    : std::runtime_error(fmt::format(
+          "{}{}{}: found {}; {}\n    {}", printable(file), p.pointer.empty() ? "" : ": ",
+          printable(p.pointer), printable(p.found), printable(p.allowed), printable(p.remedy))),
       problem(p)
-{}
+{
+}
 
 }  // namespace mis

@@ -16,7 +16,8 @@ namespace {
 void require_format(const JsonNode& format)
 {
     if (format.string() != scene_keys::format)
-        format.fail_value(fmt::format("this version reads \"{}\"", scene_keys::format), "See docs/scene-format.md.");
+        format.fail_value(fmt::format("this version reads \"{}\"", scene_keys::format),
+                          "See docs/scene-format.md.");
 }
 
 Camera read_camera(const JsonNode& entry)
@@ -37,12 +38,14 @@ Camera read_camera(const JsonNode& entry)
 Probe read_probe(const JsonNode& entry, const std::vector<Material>& materials)
 {
     entry.require_keys(scene_keys::probe);
-    return {entry["position"].vector(), unit_or_zero(entry["normal"].vector()), unit_or_zero(entry["outgoing"].vector()),
+    return {entry["position"].vector(), unit_or_zero(entry["normal"].vector()),
+            unit_or_zero(entry["outgoing"].vector()),
             read_material_name(entry["material"], materials)};
 }
 
 /// Calls `read` for each element of the member `key`, if there is one.
-template <class Read> void for_each_element(const JsonNode& root, std::string_view key, const Read& read)
+template <class Read>
+void for_each_element(const JsonNode& root, std::string_view key, const Read& read)
 {
     const std::optional<JsonNode> list = root.find(key);
     if (!list) return;
@@ -58,7 +61,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file)
     const auto add_lights = [&](const Json& document, std::size_t index, const Json& entry) {
         const JsonNode root(document, scene.file);
         if (index == 0)
-            if (const auto format = root.find("format")) require_format(*format);  // another format's lights may be others
+            if (const auto format = root.find("format"))
+                require_format(*format);  // another format's lights may be others
         const JsonNode lights = root["lights"];
         append_lights(lights.at(index, entry), scene.lights);
     };
@@ -72,15 +76,22 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file)
     scene.name = name ? name->string() : file.stem().string();
     if (const auto camera = root.find("camera")) scene.camera = read_camera(*camera);
     if (const auto materials = root.find("materials")) scene.materials = read_materials(*materials);
-    for_each_element(root, "probes", [&](const JsonNode& probe) { scene.probes.push_back(read_probe(probe, scene.materials)); });
+    for_each_element(root, "probes", [&](const JsonNode& probe) {
+        scene.probes.push_back(read_probe(probe, scene.materials));
+    });
     for_each_element(root, "surfaces", [&](const JsonNode& surface) {
         scene.surfaces.push_back(read_surface(surface, scene.materials));
     });
-    for_each_element(root, "lights", [](const JsonNode&) {});  // an array; its elements were read on the way
-    if (const std::optional<Problem> problem = find_problem(scene)) throw SceneError(scene.file, *problem);
+    for_each_element(root, "lights",
+                     [](const JsonNode&) {});  // an array; its elements were read on the way
+    if (const std::optional<Problem> problem = find_problem(scene))
+        throw SceneError(scene.file, *problem);
     return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file) { return parse_scene(read_text_file(file, "scene"), file); }
+Scene read_scene(const std::filesystem::path& file)
+{
+    return parse_scene(read_text_file(file, "scene"), file);
+}
 
 }  // namespace mis

@@ -8,11 +8,12 @@
 
 namespace mis {
 
-/// The scene of a file in the format of docs/scene-format.md, with its meshes and tables. It keeps every rule of
-/// scene/validate. Throws SceneError at the first thing that is wrong.
+/// The scene of a file in the format of docs/scene-format.md, with its meshes and tables. It keeps
+/// every rule of scene/validate. Throws SceneError at the first thing that is wrong.
 Scene read_scene(const std::filesystem::path& file);
 
-/// The same of a text at hand; `file` is for messages, and its folder for the files that the scene names.
+/// The same of a text at hand; `file` is for messages, and its folder for the files that the scene
+/// names.
 Scene parse_scene(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace mis

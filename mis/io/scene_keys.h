@@ -8,15 +8,16 @@
 
 namespace mis {
 
-/// Every key of a scene file, object by object. The reader accepts these and no others, and a test holds
-/// docs/scene.schema.json against them.
+/// Every key of a scene file, object by object. The reader accepts these and no others, and a test
+/// holds docs/scene.schema.json against them.
 namespace scene_keys {
 
 template <std::size_t count> using Names = std::array<std::string_view, count>;
 
 inline constexpr std::string_view format = "mis-scene/1";
 
-inline constexpr Names<8> scene{"$schema", "format", "name", "camera", "probes", "materials", "surfaces", "lights"};
+inline constexpr Names<8> scene{"$schema", "format",    "name",     "camera",
+                                "probes",  "materials", "surfaces", "lights"};
 inline constexpr Names<5> camera{"position", "target", "up", "vertical_fov", "resolution"};
 inline constexpr Names<4> probe{"position", "normal", "outgoing", "material"};
 

@@ -16,7 +16,8 @@
 namespace mis {
 namespace {
 
-void require_valid(const JsonNode& entry, const Vec3<double>& center, double radius, Emission emission, const Vec3<double>& emitted)
+void require_valid(const JsonNode& entry, const Vec3<double>& center, double radius,
+                   Emission emission, const Vec3<double>& emitted)
 {
     std::optional<Problem> problem = find_light_problem(center, radius, emission, emitted);
     if (!problem) return;
@@ -36,14 +37,17 @@ void append_sphere(const JsonNode& entry, Lights& to)
     entry.require_keys(scene_keys::light);
     const std::optional<JsonNode> radiance = entry.find("radiance"), power = entry.find("power");
     if (bool(radiance) == bool(power))
-        entry.fail(radiance ? "both \"radiance\" and \"power\"" : "neither \"radiance\" nor \"power\"",
-                   "a light has one of \"radiance\" and \"power\"", radiance ? "Remove one of the two." : "Add one of the two.");
+        entry.fail(
+            radiance ? "both \"radiance\" and \"power\"" : "neither \"radiance\" nor \"power\"",
+            "a light has one of \"radiance\" and \"power\"",
+            radiance ? "Remove one of the two." : "Add one of the two.");
     const Vec3<double> center = entry["center"].vector();
     const double radius = entry["radius"].number();
     const Vec3<double> emitted = (radiance ? *radiance : *power).color();
     require_valid(entry, center, radius, radiance ? Emission::radiance : Emission::power, emitted);
     require_room(entry, 1, to);
-    to.push_back(radiance ? make_light(center, radius, emitted) : make_light_of_power(center, radius, emitted));
+    to.push_back(radiance ? make_light(center, radius, emitted)
+                          : make_light_of_power(center, radius, emitted));
 }
 
 void append_table(const JsonNode& entry, Lights& to)
@@ -57,18 +61,21 @@ std::array<double, 2> read_range(const JsonNode& range)
     const char* const allowed = "two numbers, [low, high], 0 < low <= high, belong here";
     range.require_array(2, allowed);
     const std::array<double, 2> ends{range.element(0).number(), range.element(1).number()};
-    if (!(ends[0] > 0 && ends[0] <= ends[1])) range.fail_value(allowed, "A range of one value is written twice: [1, 1].");
+    if (!(ends[0] > 0 && ends[0] <= ends[1]))
+        range.fail_value(allowed, "A range of one value is written twice: [1, 1].");
     return ends;
 }
 
 std::array<Vec3<double>, 2> read_box(const JsonNode& box)
 {
-    const char* const allowed = "two corners, [[x, y, z], [x, y, z]], the lowest first, belong here";
+    const char* const allowed =
+        "two corners, [[x, y, z], [x, y, z]], the lowest first, belong here";
     box.require_array(2, allowed);
     const std::array<Vec3<double>, 2> corners{box.element(0).vector(), box.element(1).vector()};
     const auto& [low, high] = corners;
     if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z))
-        box.fail("a first corner that is above the second in x, y or z", allowed, "Sort each coordinate.");
+        box.fail("a first corner that is above the second in x, y or z", allowed,
+                 "Sort each coordinate.");
     return corners;
 }
 
@@ -84,10 +91,15 @@ void append_random(const JsonNode& entry, Lights& to)
     };
     for (const Vec3<double>& corner : lights.box)
         if (std::max({std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)}) > limits::length)
-            entry["box"].fail("a coordinate beyond the limit", "a coordinate lies within ±" + to_text(limits::length) + " scene units", "Use larger units.");
-    // The extremes in radiance are the corners of (radius, power); if all four may be, so may what lies between.
+            entry["box"].fail(
+                "a coordinate beyond the limit",
+                "a coordinate lies within ±" + to_text(limits::length) + " scene units",
+                "Use larger units.");
+    // The extremes in radiance are the corners of (radius, power); if all four may be, so may what
+    // lies between.
     for (const double radius : lights.radius)
-        for (const double power : lights.power) require_valid(entry, lights.box[0], radius, Emission::power, Vec3<double>(power));
+        for (const double power : lights.power)
+            require_valid(entry, lights.box[0], radius, Emission::power, Vec3<double>(power));
     require_room(entry["count"], lights.count, to);
     append_random_lights(lights, to);
 }

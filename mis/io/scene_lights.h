@@ -5,8 +5,8 @@
 
 namespace mis {
 
-/// Appends what one entry of a scene's "lights" stands for: one light, those of a table, or random ones.
-/// Throws SceneError.
+/// Appends what one entry of a scene's "lights" stands for: one light, those of a table, or random
+/// ones. Throws SceneError.
 void append_lights(const JsonNode& entry, Lights& to);
 
 }  // namespace mis

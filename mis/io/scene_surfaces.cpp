@@ -24,12 +24,14 @@ Material read_material(const JsonNode& entry, const std::string& name)
     assert(type);
     entry.require_keys(scene_keys::material(*type));
     for (const MaterialField& field : type->fields) {
-        const std::optional<JsonNode> value = field.required ? entry[field.name] : entry.find(field.name);
+        const std::optional<JsonNode> value =
+            field.required ? entry[field.name] : entry.find(field.name);
         if (!value) continue;
         if (field.color) material.*field.color = value->color();
         else material.*field.number = value->number();
     }
-    if (const auto probability = entry.find("specular_probability")) material.specular_probability = probability->number();
+    if (const auto probability = entry.find("specular_probability"))
+        material.specular_probability = probability->number();
     return material;
 }
 
@@ -45,8 +47,10 @@ Vec3<double> read_scale(const JsonNode& scale)
 Transform read_transform(const JsonNode& entry)
 {
     entry.require_keys(scene_keys::transform);
-    const auto scale = entry.find("scale"), rotate = entry.find("rotate"), translate = entry.find("translate");
-    return {scale ? read_scale(*scale) : Vec3<double>(1), rotate ? rotate->vector() : Vec3<double>(0),
+    const auto scale = entry.find("scale"), rotate = entry.find("rotate"),
+               translate = entry.find("translate");
+    return {scale ? read_scale(*scale) : Vec3<double>(1),
+            rotate ? rotate->vector() : Vec3<double>(0),
             translate ? translate->vector() : Vec3<double>(0)};
 }
 
@@ -85,7 +89,8 @@ std::vector<Material> read_materials(const JsonNode& materials)
 {
     materials.require_object();
     std::vector<Material> read;
-    for (const auto& [name, entry] : materials.value().items()) read.push_back(read_material(materials.at(name, entry), name));
+    for (const auto& [name, entry] : materials.value().items())
+        read.push_back(read_material(materials.at(name, entry), name));
     return read;
 }
 
@@ -94,17 +99,22 @@ int read_material_name(const JsonNode& name, const std::vector<Material>& materi
     const std::string& written = name.string();
     const auto by_name = [](const Material& m) -> const std::string& { return m.name; };
     const auto found = std::ranges::lower_bound(materials, written, {}, by_name);
-    if (found != materials.end() && found->name == written) return static_cast<int>(found - materials.begin());
+    if (found != materials.end() && found->name == written)
+        return static_cast<int>(found - materials.begin());
     std::vector<std::string_view> known(materials.size());
     std::ranges::transform(materials, known.begin(), by_name);
-    name.fail(in_quotes(written), known.empty() ? "the scene has no materials" : "the scene's materials are " + comma_list(known),
+    name.fail(in_quotes(written),
+              known.empty() ? "the scene has no materials"
+                            : "the scene's materials are " + comma_list(known),
               did_you_mean(written, known, "Add it to \"materials\"."));
 }
 
 Surface read_surface(const JsonNode& entry, const std::vector<Material>& materials)
 {
     const std::string_view type = read_type(entry["type"], scene_keys::surface_types);
-    const auto place = [&](auto shape) { return Surface{std::move(shape), read_material_name(entry["material"], materials)}; };
+    const auto place = [&](auto shape) {
+        return Surface{std::move(shape), read_material_name(entry["material"], materials)};
+    };
     if (type == "sphere") return place(read_sphere(entry));
     if (type == "quad") return place(read_quad(entry));
     return place(read_mesh_surface(entry));

@@ -55,26 +55,37 @@ public:
     {
         constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
         if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
-        while (!rest_.empty() && std::string_view(" \t\r\n").find(rest_.back()) != std::string_view::npos) rest_.remove_suffix(1);
+        while (!rest_.empty() &&
+               std::string_view(" \t\r\n").find(rest_.back()) != std::string_view::npos)
+            rest_.remove_suffix(1);
     }
 
     void append_to(Lights& lights)
     {
         read_header();
-        if (rest_.empty()) fail("", "a header and no rows", "a table has at least one light", "Add a row.");
-        lights.reserve(lights.size() + static_cast<std::size_t>(std::count(rest_.begin(), rest_.end(), '\n')) + 1);
+        if (rest_.empty())
+            fail("", "a header and no rows", "a table has at least one light", "Add a row.");
+        lights.reserve(lights.size() +
+                       static_cast<std::size_t>(std::count(rest_.begin(), rest_.end(), '\n')) + 1);
         while (!rest_.empty()) {
             if (lights.size() >= limits::lights)
-                fail("", "one more light than a scene may have", fmt::format("a scene has at most {} lights", limits::lights), "Split the table.");
+                fail("", "one more light than a scene may have",
+                     fmt::format("a scene has at most {} lights", limits::lights),
+                     "Split the table.");
             lights.push_back(read_light());
         }
     }
 
 private:
-    [[noreturn]] void fail(std::string_view column, std::string found, std::string allowed, std::string remedy) const
+    [[noreturn]] void fail(std::string_view column, std::string found, std::string allowed,
+                           std::string remedy) const
     {
-        const std::string place = column.empty() ? fmt::format("line {}", line_) : fmt::format("line {}, column{} {}", line_, column.find(',') == column.npos ? "" : "s", column);
-        throw SceneError(file_.string(), Problem{place, std::move(found), std::move(allowed), std::move(remedy)});
+        const std::string place =
+            column.empty() ? fmt::format("line {}", line_)
+                           : fmt::format("line {}, column{} {}", line_,
+                                         column.find(',') == column.npos ? "" : "s", column);
+        throw SceneError(file_.string(),
+                         Problem{place, std::move(found), std::move(allowed), std::move(remedy)});
     }
 
     std::string_view next_line()
@@ -86,24 +97,30 @@ private:
     void read_header()
     {
         std::string_view header = trimmed(next_line());
-        const std::string allowed = "the columns are " + comma_list(scene_keys::columns) + ", in any order";
+        const std::string allowed =
+            "the columns are " + comma_list(scene_keys::columns) + ", in any order";
         if (header.find(',') == header.npos)
             fail("", "the header " + in_quotes(header), allowed, "Separate the columns by commas.");
         std::array<bool, column_count> seen{};
         for (bool more = true; more;) {
             more = header.find(',') != header.npos;
             const std::string_view name = trimmed(take_until(',', header));
-            const auto column = std::find(scene_keys::columns.begin(), scene_keys::columns.end(), name);
+            const auto column =
+                std::find(scene_keys::columns.begin(), scene_keys::columns.end(), name);
             if (column == scene_keys::columns.end())
-                fail("", "the unknown column " + in_quotes(name), allowed, did_you_mean(name, scene_keys::columns, "Remove it."));
+                fail("", "the unknown column " + in_quotes(name), allowed,
+                     did_you_mean(name, scene_keys::columns, "Remove it."));
             const auto index = static_cast<std::size_t>(column - scene_keys::columns.begin());
-            if (seen[index]) fail("", "the column " + in_quotes(name) + " a second time", allowed, "Remove one of the two.");
+            if (seen[index])
+                fail("", "the column " + in_quotes(name) + " a second time", allowed,
+                     "Remove one of the two.");
             seen[index] = true;
             order_.push_back(index);
         }
         for (std::size_t i = 0; i < column_count; ++i)
             if (!seen[i])
-                fail("", fmt::format("no column \"{}\"", scene_keys::columns[i]), allowed, "Add it.");
+                fail("", fmt::format("no column \"{}\"", scene_keys::columns[i]), allowed,
+                     "Add it.");
     }
 
     double read_number(std::string_view field, std::string_view column) const
@@ -112,9 +129,11 @@ private:
         double number = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
         if (error == std::errc::result_out_of_range)
-            fail(column, in_quotes(text), "a number lies within the range of a double", "Use other units.");
+            fail(column, in_quotes(text), "a number lies within the range of a double",
+                 "Use other units.");
         if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number))
-            fail(column, in_quotes(text), "a finite number belongs here", "Write it as 0.5 or 1e-3.");
+            fail(column, in_quotes(text), "a finite number belongs here",
+                 "Write it as 0.5 or 1e-3.");
         return number;
     }
 
@@ -125,13 +144,17 @@ private:
         const std::size_t count = split(row, fields);
         if (count != column_count)
             fail("", trimmed(row).empty() ? "an empty line" : fmt::format("{} fields", count),
-                 fmt::format("a row has {} fields, as the header has", column_count), "Mend or remove the line.");
+                 fmt::format("a row has {} fields, as the header has", column_count),
+                 "Mend or remove the line.");
         std::array<double, column_count> values;
         for (std::size_t i = 0; i < column_count; ++i)
             values[order_[i]] = read_number(fields[i], scene_keys::columns[order_[i]]);
         const auto& [x, y, z, radius, r, g, b] = values;
-        if (const std::optional<Problem> problem = find_light_problem({x, y, z}, radius, Emission::radiance, {r, g, b})) {
-            const std::string_view column = problem->pointer == "/radius" ? "radius" : problem->pointer == "/center" ? "x, y, z" : "r, g, b";
+        if (const std::optional<Problem> problem =
+                find_light_problem({x, y, z}, radius, Emission::radiance, {r, g, b})) {
+            const std::string_view column = problem->pointer == "/radius"   ? "radius"
+                                            : problem->pointer == "/center" ? "x, y, z"
+                                                                            : "r, g, b";
             fail(column, problem->found, problem->allowed, problem->remedy);
         }
         return make_light({x, y, z}, radius, {r, g, b});
@@ -140,7 +163,8 @@ private:
     std::string_view rest_;
     const std::filesystem::path& file_;
     std::size_t line_ = 0;
-    std::vector<std::size_t> order_;  ///< of the columns in the file, as indices into scene_keys::columns
+    std::vector<std::size_t>
+        order_;  ///< of the columns in the file, as indices into scene_keys::columns
 };
 
 }  // namespace

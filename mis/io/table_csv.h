@@ -7,9 +7,10 @@
 
 namespace mis {
 
-/// Appends the lights of a table: comma-separated, the first line naming the columns x, y, z, radius, r, g, b in any
-/// order; r, g, b is the radiance. A byte order mark, CRLF and empty lines at the end are allowed.
-/// Throws SceneError as `bulbs.csv: line 7, column radius: found "abc"; …`, or, with an empty pointer, about the file.
+/// Appends the lights of a table: comma-separated, the first line naming the columns x, y, z,
+/// radius, r, g, b in any order; r, g, b is the radiance. A byte order mark, CRLF and empty lines
+/// at the end are allowed. Throws SceneError as `bulbs.csv: line 7, column radius: found "abc"; …`,
+/// or, with an empty pointer, about the file.
 void append_light_table(const std::filesystem::path& file, Lights& to);
 
 /// The same of a text at hand; `file` is for messages.

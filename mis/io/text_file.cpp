@@ -15,21 +15,27 @@
 namespace mis {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string found, std::string allowed, std::string remedy)
+[[noreturn]] void fail(const std::filesystem::path& file, std::string found, std::string allowed,
+                       std::string remedy)
 {
-    throw SceneError(file.string(), Problem{"", std::move(found), std::move(allowed), std::move(remedy)});
+    throw SceneError(file.string(),
+                     Problem{"", std::move(found), std::move(allowed), std::move(remedy)});
 }
 
 [[noreturn]] void fail_too_large(const std::filesystem::path& file, std::string_view kind)
 {
     fail(file, fmt::format("more than {} bytes", limits::scene_file_bytes),
-         fmt::format("a {} has at most {} bytes", kind, limits::scene_file_bytes), "Split the scene.");
+         fmt::format("a {} has at most {} bytes", kind, limits::scene_file_bytes),
+         "Split the scene.");
 }
 
-/// Bytes of the UTF-8 character at the start of `rest`; 0 if there is none (RFC 3629: no overlong forms, no surrogates).
+/// Bytes of the UTF-8 character at the start of `rest`; 0 if there is none (RFC 3629: no overlong
+/// forms, no surrogates).
 std::size_t utf8_length(std::string_view rest)
 {
-    const auto byte = [&](std::size_t i) { return i < rest.size() ? static_cast<unsigned char>(rest[i]) : 0u; };
+    const auto byte = [&](std::size_t i) {
+        return i < rest.size() ? static_cast<unsigned char>(rest[i]) : 0u;
+    };
     const auto follows = [&](std::size_t i, unsigned low = 0x80, unsigned high = 0xBF) {
         return byte(i) >= low && byte(i) <= high;
     };
@@ -54,15 +60,18 @@ std::string read_text_file(const std::filesystem::path& file, std::string_view k
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
         fail(file, "a directory", fmt::format("a {} is a file", kind), "Name a file in it.");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"),
+                                                                 &std::fclose);
     if (!stream) {
         const std::error_code reason(errno, std::generic_category());
         if (reason == std::errc::no_such_file_or_directory || reason == std::errc::not_a_directory)
-            fail(file, "no such file", fmt::format("a {} is a file that exists", kind), "Check the path.");
+            fail(file, "no such file", fmt::format("a {} is a file that exists", kind),
+                 "Check the path.");
         fail(file, fmt::format("a file that cannot be opened ({})", reason.message()),
              fmt::format("a {} is a readable file", kind), "Check the file's permissions.");
     }
-    const std::uintmax_t size = std::filesystem::file_size(file, error);  // of a pipe: an error, and nothing to reserve
+    const std::uintmax_t size =
+        std::filesystem::file_size(file, error);  // of a pipe: an error, and nothing to reserve
     std::string text;
     if (!error && size > limits::scene_file_bytes) fail_too_large(file, kind);
     if (!error) text.reserve(size);
@@ -72,8 +81,11 @@ std::string read_text_file(const std::filesystem::path& file, std::string_view k
         if (text.size() > limits::scene_file_bytes) fail_too_large(file, kind);
     }
     if (std::ferror(stream.get()))
-        fail(file, "a file that cannot be read to its end", fmt::format("a {} is a readable file", kind), "Check the disk.");
-    if (text.empty()) fail(file, "an empty file", fmt::format("a {} has content", kind), "Check that it was written in full.");
+        fail(file, "a file that cannot be read to its end",
+             fmt::format("a {} is a readable file", kind), "Check the disk.");
+    if (text.empty())
+        fail(file, "an empty file", fmt::format("a {} has content", kind),
+             "Check that it was written in full.");
     return text;
 }
 
@@ -81,7 +93,8 @@ TextPlace place_in(std::string_view text, std::size_t byte)
 {
     const std::string_view before = text.substr(0, byte);
     const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-    return {static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1, before.size() - line_start + 1};
+    return {static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1,
+            before.size() - line_start + 1};
 }
 
 void require_utf8(std::string_view text, const std::filesystem::path& file)
@@ -90,10 +103,11 @@ void require_utf8(std::string_view text, const std::filesystem::path& file)
         const std::size_t length = text[i] == '\0' ? 0 : utf8_length(text.substr(i, 4));
         if (length == 0) {
             const auto [line, column] = place_in(text, i);
-            throw SceneError(file.string(),
-                             Problem{fmt::format("line {}, column {}", line, column),
-                                     fmt::format("byte 0x{:02X}", static_cast<unsigned char>(text[i])),
-                                     "the text is UTF-8, without zero bytes", "Save it as UTF-8."});
+            throw SceneError(
+                file.string(),
+                Problem{fmt::format("line {}, column {}", line, column),
+                        fmt::format("byte 0x{:02X}", static_cast<unsigned char>(text[i])),
+                        "the text is UTF-8, without zero bytes", "Save it as UTF-8."});
         }
         i += length;
     }
@@ -103,8 +117,11 @@ std::string in_quotes(std::string_view text)
 {
     constexpr std::size_t longest = 60;
     std::size_t end = std::min(text.size(), longest);
-    while (end < text.size() && end > longest - 4 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-    const nlohmann::json string(std::string(text.substr(0, end)) + (end < text.size() ? "..." : ""));
+    while (end < text.size() && end > longest - 4 &&
+           (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+        --end;
+    const nlohmann::json string(std::string(text.substr(0, end)) +
+                                (end < text.size() ? "..." : ""));
     return string.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -6,8 +6,9 @@
 
 namespace mis {
 
-/// The bytes of a file. Throws SceneError if it is missing, a directory, unreadable, empty, or above
-/// limits::scene_file_bytes. `kind` names the file in the message: "scene", "table of lights".
+/// The bytes of a file. Throws SceneError if it is missing, a directory, unreadable, empty, or
+/// above limits::scene_file_bytes. `kind` names the file in the message: "scene", "table of
+/// lights".
 std::string read_text_file(const std::filesystem::path& file, std::string_view kind);
 
 /// A place in a text, counted from 1, as editors show it; columns count bytes.
@@ -19,7 +20,8 @@ TextPlace place_in(std::string_view text, std::size_t byte);
 /// Throws SceneError at the first byte of `text` that is not UTF-8, or that is a zero byte.
 void require_utf8(std::string_view text, const std::filesystem::path& file);
 
-/// `text` in quotes, safe to print: control characters and bytes that are not UTF-8 escaped, what is long shortened.
+/// `text` in quotes, safe to print: control characters and bytes that are not UTF-8 escaped, what
+/// is long shortened.
 std::string in_quotes(std::string_view text);
 
 }  // namespace mis

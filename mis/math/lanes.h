@@ -10,15 +10,17 @@
 
 /// GLM's vectors ask for these of their number type.
 template <class T, class A>
-struct std::numeric_limits<xsimd::batch<T, A>> : std::numeric_limits<T> {};
+struct std::numeric_limits<xsimd::batch<T, A>> : std::numeric_limits<T> {
+};
 #endif
 
 #define MIS_INLINE [[gnu::always_inline]] inline
 
 namespace mis {
 
-// A kernel is written once, over a number type T that is a float, a double, or a SIMD batch of either. What such a
-// text needs beyond arithmetic and <cmath> by argument-dependent lookup stands here.
+// A kernel is written once, over a number type T that is a float, a double, or a SIMD batch of
+// either. What such a text needs beyond arithmetic and <cmath> by argument-dependent lookup stands
+// here.
 
 namespace detail {
 template <class T> struct LaneTraits {
@@ -53,7 +55,10 @@ template <class T> MIS_INLINE void store(Scalar<T>* p, const T& value)
 }
 
 /// `condition ? a : b`, lane by lane; both sides are evaluated. For batches xsimd brings it.
-template <class T> MIS_INLINE T select(bool condition, const T& a, const T& b) { return condition ? a : b; }
+template <class T> MIS_INLINE T select(bool condition, const T& a, const T& b)
+{
+    return condition ? a : b;
+}
 /// The larger and the smaller number, lane by lane. A NaN in `a` gives b: a bound also cleans.
 template <class T> MIS_INLINE T max_of(const T& a, const T& b) { return select(a > b, a, b); }
 template <class T> MIS_INLINE T min_of(const T& a, const T& b) { return select(a < b, a, b); }

@@ -4,19 +4,21 @@
 
 namespace mis {
 
-// Formulas that lose digits when written as in the textbook. What is small (1 − cos θ, sin²θ, d² − r²) is what is
-// stored; see docs/theory.md §2.
+// Formulas that lose digits when written as in the textbook. What is small (1 − cos θ, sin²θ, d² −
+// r²) is what is stored; see docs/theory.md §2.
 
 template <class T> inline constexpr Scalar<T> pi = static_cast<Scalar<T>>(3.14159265358979323846);
-template <class T> inline constexpr Scalar<T> two_pi = static_cast<Scalar<T>>(6.28318530717958647692);
+template <class T>
+inline constexpr Scalar<T> two_pi = static_cast<Scalar<T>>(6.28318530717958647692);
 
 /// A double constant as a number of type T, in every lane.
 template <class T> MIS_INLINE T number(double value) { return T(static_cast<Scalar<T>>(value)); }
 
 template <class T> MIS_INLINE T square(const T& x) { return x * x; }
 
-/// cos^m θ from sin²θ and cos²θ, each given with its own full precision: exp(m/2 · ln cos²θ), where ln cos²θ is taken
-/// as log1p(−sin²θ) near the axis. m = 0 gives 1 everywhere. Error: 4 ulp · (1 + |ln value|), m up to 1e6.
+/// cos^m θ from sin²θ and cos²θ, each given with its own full precision: exp(m/2 · ln cos²θ), where
+/// ln cos²θ is taken as log1p(−sin²θ) near the axis. m = 0 gives 1 everywhere. Error: 4 ulp · (1 +
+/// |ln value|), m up to 1e6.
 template <class T> MIS_INLINE T pow_cos(const T& sin2, const T& cos2, double m)
 {
     using std::exp, std::log, std::log1p;
@@ -25,8 +27,8 @@ template <class T> MIS_INLINE T pow_cos(const T& sin2, const T& cos2, double m)
     return exp(number<T>(0.5 * m) * select(sin2 < number<T>(0.5), near_axis, far_off));
 }
 
-/// 1 − cos θ of a direction drawn with density ∝ cos^m θ, from u in [0, 1): −expm1(log1p(−u)/(m + 1)).
-/// Full relative precision for any m (docs/theory.md, eq. 8).
+/// 1 − cos θ of a direction drawn with density ∝ cos^m θ, from u in [0, 1): −expm1(log1p(−u)/(m +
+/// 1)). Full relative precision for any m (docs/theory.md, eq. 8).
 template <class T> MIS_INLINE T one_minus_cos_of_lobe(const T& u, double m)
 {
     using std::expm1, std::log1p;

@@ -4,8 +4,8 @@
 
 namespace mis {
 
-/// Every light in turn: one sample is one draw for each (the lecture's "N per source"). Its probability is the
-/// expected number of draws of a light per sample, 1.
+/// Every light in turn: one sample is one draw for each (the lecture's "N per source"). Its
+/// probability is the expected number of draws of a light per sample, 1.
 class AllPolicy {
 public:
     static constexpr std::string_view name = "all";
@@ -15,7 +15,8 @@ public:
 
     explicit AllPolicy(const Lights&) {}
 
-    template <class T> AllPolicy prepare(const ChoicePoint<Scalar<T>>&, const LightColumns<Scalar<T>>&, Scratch&) const
+    template <class T>
+    AllPolicy prepare(const ChoicePoint<Scalar<T>>&, const LightColumns<Scalar<T>>&, Scratch&) const
     {
         return *this;
     }

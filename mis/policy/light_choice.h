@@ -12,13 +12,14 @@
 
 namespace mis {
 
-/// The lights as one array per field, relative to an origin near the points at hand: what a loop over all lights
-/// reads. Padded with lights of radius 0 at a distance, so that lanes need no remainder.
+/// The lights as one array per field, relative to an origin near the points at hand: what a loop
+/// over all lights reads. Padded with lights of radius 0 at a distance, so that lanes need no
+/// remainder.
 template <class T> struct LightColumns {
-    std::size_t count = 0;                         ///< without the padding
-    std::span<const T> x, y, z;                    ///< of the centre, scene units
-    std::span<const T> radius;                     ///< scene units
-    std::span<const T> luminance_radius;           ///< Y(L)·r
+    std::size_t count = 0;                ///< without the padding
+    std::span<const T> x, y, z;           ///< of the centre, scene units
+    std::span<const T> radius;            ///< scene units
+    std::span<const T> luminance_radius;  ///< Y(L)·r
     T inverse_largest_radius = 1;
 };
 
@@ -30,12 +31,16 @@ template <class T> struct ChoicePoint {
 /// Room for the tables of some points; handed out from the front, and all taken back at once.
 class Scratch {
 public:
-    explicit Scratch(std::size_t bytes) : storage_(std::make_unique<std::byte[]>(bytes)), size_(bytes) {}
+    explicit Scratch(std::size_t bytes)
+        : storage_(std::make_unique<std::byte[]>(bytes)), size_(bytes)
+    {
+    }
     void clear() { used_ = 0; }
     std::size_t size() const { return size_; }
     std::size_t left() const { return size_ - used_; }
 
-    /// Room for n numbers of type N, on a boundary of 64 bytes. Precondition: bytes_for<N>(n) ≤ left().
+    /// Room for n numbers of type N, on a boundary of 64 bytes. Precondition: bytes_for<N>(n) ≤
+    /// left().
     template <class N> std::span<N> take(std::size_t n)
     {
         std::byte* start = storage_.get() + used_;
@@ -44,38 +49,61 @@ public:
         used_ += bytes_for<N>(n);
         return {reinterpret_cast<N*>(start), n};
     }
-    template <class N> static constexpr std::size_t bytes_for(std::size_t n) { return (n * sizeof(N) + 127) / 64 * 64; }
+    template <class N> static constexpr std::size_t bytes_for(std::size_t n)
+    {
+        return (n * sizeof(N) + 127) / 64 * 64;
+    }
 
 private:
     std::unique_ptr<std::byte[]> storage_;
     std::size_t size_ = 0, used_ = 0;
 };
 
-/// What a policy knows of one shading point. The probabilities of all lights sum to 1, or are all 0; a light that can
-/// contribute has a positive one. choose(bits).probability equals probability(choose(bits).light) exactly.
-/// bits: 64 random bits; a float number would starve lights where there are millions.
+/// What a policy knows of one shading point. The probabilities of all lights sum to 1, or are all
+/// 0; a light that can contribute has a positive one. choose(bits).probability equals
+/// probability(choose(bits).light) exactly. bits: 64 random bits; a float number would starve
+/// lights where there are millions.
 template <class Table>
-concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightIndex light) {
-    { table.choose(bits) } -> std::same_as<Choice>;
-    { table.probability(light) } -> std::same_as<double>;
+concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightIndex light)
+{
+    {
+        table.choose(bits)
+        } -> std::same_as<Choice>;
+    {
+        table.probability(light)
+        } -> std::same_as<double>;
 };
 
 /// The question a light-choice policy answers: which light should a point spend its next draw on?
-/// prepare<T>() is called once per shading point (T may be a batch: lanes run over the lights); the point's samples
-/// share the table it returns, a small trivially copyable view. table_bytes(lights): the scratch it takes.
-/// draws_every_light: one sample is one draw for every light (`all`); choose() is not asked.
-/// looks_at_point: false where one table serves every point; prepare() then costs nothing.
+/// prepare<T>() is called once per shading point (T may be a batch: lanes run over the lights); the
+/// point's samples share the table it returns, a small trivially copyable view.
+/// table_bytes(lights): the scratch it takes. draws_every_light: one sample is one draw for every
+/// light (`all`); choose() is not asked. looks_at_point: false where one table serves every point;
+/// prepare() then costs nothing.
 template <class P, class T>
 concept LightChoice = std::constructible_from<P, const Lights&> &&
-                      requires(const P& policy, const ChoicePoint<Scalar<T>>& point,
-                               const LightColumns<Scalar<T>>& columns, Scratch& scratch) {
-                          { P::name } -> std::convertible_to<std::string_view>;
-                          { P::summary } -> std::convertible_to<std::string_view>;
-                          { P::draws_every_light } -> std::convertible_to<bool>;
-                          { P::looks_at_point } -> std::convertible_to<bool>;
-                          { P::table_bytes(std::size_t{}) } -> std::same_as<std::size_t>;
-                          { policy.template prepare<T>(point, columns, scratch) } -> ChoiceTable;
-                      };
+    requires(const P& policy, const ChoicePoint<Scalar<T>>& point,
+             const LightColumns<Scalar<T>>& columns, Scratch& scratch)
+{
+    {
+        P::name
+        } -> std::convertible_to<std::string_view>;
+    {
+        P::summary
+        } -> std::convertible_to<std::string_view>;
+    {
+        P::draws_every_light
+        } -> std::convertible_to<bool>;
+    {
+        P::looks_at_point
+        } -> std::convertible_to<bool>;
+    {
+        P::table_bytes(std::size_t{})
+        } -> std::same_as<std::size_t>;
+    {
+        policy.template prepare<T>(point, columns, scratch)
+        } -> ChoiceTable;
+};
 
 /// One light of the columns as seen from a point, or a batch of them.
 template <class T> struct SeenLight {
@@ -83,29 +111,33 @@ template <class T> struct SeenLight {
     T distance, radius, luminance_radius;
     T size;  ///< radius over the largest radius of the scene: its square stays a normal number
 
-    /// Ω/(2π sin θ_max) = sin θ_max/(1 + cos θ_max): times another factor of r it is the solid angle; apart from it,
-    /// it does not underflow.
+    /// Ω/(2π sin θ_max) = sin θ_max/(1 + cos θ_max): times another factor of r it is the solid
+    /// angle; apart from it, it does not underflow.
     MIS_INLINE T solid_angle_over_sin() const
     {
         using std::sqrt;
-        const T cos_max = sqrt(max_of((distance - radius) * (distance + radius), number<T>(0))) / distance;
+        const T cos_max =
+            sqrt(max_of((distance - radius) * (distance + radius), number<T>(0))) / distance;
         return radius / distance / (number<T>(1) + cos_max);
     }
 };
 
-/// The table of a policy whose weight is a formula per light. weight(seen, n) ≥ 0 and finite; its unit is free.
+/// The table of a policy whose weight is a formula per light. weight(seen, n) ≥ 0 and finite; its
+/// unit is free.
 template <class T, class Weight>
 RunningSum prepare_by_weight(const Weight& weight, const ChoicePoint<Scalar<T>>& point,
                              const LightColumns<Scalar<T>>& lights, Scratch& scratch)
 {
     const std::span<double> sums = scratch.take<double>(lights.count);
     const std::span<Scalar<T>> weights = scratch.take<Scalar<T>>(lights.x.size());
-    const Vec3<T> x{T(point.x.x), T(point.x.y), T(point.x.z)}, n{T(point.n.x), T(point.n.y), T(point.n.z)};
+    const Vec3<T> x{T(point.x.x), T(point.x.y), T(point.x.z)},
+        n{T(point.n.x), T(point.n.y), T(point.n.z)};
     for (std::size_t j = 0; j < lights.count; j += lane_count<T>) {
         const Vec3<T> to_center =
             Vec3<T>{load<T>(&lights.x[j]), load<T>(&lights.y[j]), load<T>(&lights.z[j])} - x;
         const T radius = load<T>(&lights.radius[j]);
-        const SeenLight<T> seen{to_center, length(to_center), radius, load<T>(&lights.luminance_radius[j]),
+        const SeenLight<T> seen{to_center, length(to_center), radius,
+                                load<T>(&lights.luminance_radius[j]),
                                 radius * T(lights.inverse_largest_radius)};
         store(&weights[j], weight(seen, n));
     }

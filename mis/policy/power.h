@@ -6,7 +6,8 @@
 
 namespace mis {
 
-/// Draws lights in proportion to the power they emit, wherever the point is (Shirley, Wang and Zimmerman 1996, §4).
+/// Draws lights in proportion to the power they emit, wherever the point is (Shirley, Wang and
+/// Zimmerman 1996, §4).
 class PowerPolicy {
 public:
     static constexpr std::string_view name = "power";
@@ -14,7 +15,10 @@ public:
     static constexpr bool draws_every_light = false, looks_at_point = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
 
-    explicit PowerPolicy(const Lights& lights) : by_power_(std::make_shared<AliasTable>(relative_powers(lights))) {}
+    explicit PowerPolicy(const Lights& lights)
+        : by_power_(std::make_shared<AliasTable>(relative_powers(lights)))
+    {
+    }
 
     /// A view of the one table.
     struct Table {
@@ -22,7 +26,8 @@ public:
         Choice choose(std::uint64_t bits) const { return by_power->choose(bits); }
         double probability(LightIndex light) const { return by_power->probability(light); }
     };
-    template <class T> Table prepare(const ChoicePoint<Scalar<T>>&, const LightColumns<Scalar<T>>&, Scratch&) const
+    template <class T>
+    Table prepare(const ChoicePoint<Scalar<T>>&, const LightColumns<Scalar<T>>&, Scratch&) const
     {
         return {by_power_.get()};
     }

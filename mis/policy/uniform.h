@@ -15,7 +15,8 @@ public:
     explicit UniformPolicy(const Lights& lights) : count_(lights.size()) {}
 
     template <class T>
-    UniformPolicy prepare(const ChoicePoint<Scalar<T>>&, const LightColumns<Scalar<T>>&, Scratch&) const
+    UniformPolicy prepare(const ChoicePoint<Scalar<T>>&, const LightColumns<Scalar<T>>&,
+                          Scratch&) const
     {
         return *this;
     }

@@ -36,13 +36,15 @@ bool is_beyond(const Face& face, const Probe& probe, const Light& light)
 
 bool has_both_on_one_side(const Face& face, const Probe& probe, const Light& light)
 {
-    const Vec3<double> across = cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+    const Vec3<double> across =
+        cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
     const double size = length(across);
     if (!(size > 0)) return true;  // no area
     const double point = dot(probe.position - face.corners[0], across) / size;
     const double center = dot(light.center - face.corners[0], across) / size;
     const double side = std::abs(point) > face.rounding ? point : center;
-    return (side > 0 ? center : -center) >= light.radius * (1 - 1e-12) && (side > 0 ? point : -point) >= -face.rounding;
+    return (side > 0 ? center : -center) >= light.radius * (1 - 1e-12) &&
+           (side > 0 ? point : -point) >= -face.rounding;
 }
 
 bool is_light_below(const Light& light, const Probe& probe)
@@ -54,16 +56,18 @@ bool could_hide(const Face& face, const Scene& scene, const Probe& probe)
 {
     if (is_below_horizon(face, probe)) return false;
     for (const Light& light : scene.lights)
-        if (!is_light_below(light, probe) && !is_beyond(face, probe, light) && !has_both_on_one_side(face, probe, light))
+        if (!is_light_below(light, probe) && !is_beyond(face, probe, light) &&
+            !has_both_on_one_side(face, probe, light))
             return true;
     return false;
 }
 
 [[noreturn]] void refuse(std::size_t surface, const char* what)
 {
-    throw PredictError("surface " + std::to_string(surface) + " is a " + what +
-                       " that could hide a light from the probe; predict can integrate spheres only\n"
-                       "    Remove the surface, or measure with compare.");
+    throw PredictError(
+        "surface " + std::to_string(surface) + " is a " + what +
+        " that could hide a light from the probe; predict can integrate spheres only\n"
+        "    Remove the surface, or measure with compare.");
 }
 
 }  // namespace
@@ -73,16 +77,20 @@ void refuse_blockers(const Scene& scene, const Probe& probe)
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         const auto& shape = scene.surfaces[s].shape;
         const auto rounding = [&](const Vec3<double>& corner) {
-            return 4 * float_offset(std::max(largest_coordinate(corner), largest_coordinate(probe.position)));
+            return 4 * float_offset(std::max(largest_coordinate(corner),
+                                             largest_coordinate(probe.position)));
         };
         if (const auto* quad = std::get_if<Quad>(&shape)) {
             const Vec3<double> opposite = quad->corner + quad->edges[0] + quad->edges[1];
-            const Face face{{quad->corner, quad->corner + quad->edges[0], opposite, quad->corner + quad->edges[1]}, 4,
+            const Face face{{quad->corner, quad->corner + quad->edges[0], opposite,
+                             quad->corner + quad->edges[1]},
+                            4,
                             std::max(rounding(quad->corner), rounding(opposite))};
             if (could_hide(face, scene, probe)) refuse(s, "quad");
         } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
             for (const auto& [a, b, c] : mesh->triangles) {
-                const Face face{{mesh->positions[a], mesh->positions[b], mesh->positions[c]}, 3,
+                const Face face{{mesh->positions[a], mesh->positions[b], mesh->positions[c]},
+                                3,
                                 rounding(mesh->positions[a])};
                 if (could_hide(face, scene, probe)) refuse(s, "mesh");
             }

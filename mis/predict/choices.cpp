@@ -4,6 +4,7 @@
 #include "mis/technique/registry.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -41,10 +42,19 @@ private:
     double largest_ = 0;
 };
 
+/// Tables may hold floats, whose sum is 1 to rounding alone.
+void normalize(std::vector<double>& probability)
+{
+    const double sum = std::accumulate(probability.begin(), probability.end(), 0.0);
+    if (sum > 0)
+        for (double& p : probability) p /= sum;
+}
+
 template <class P> PolicyView view_of(const Scene& scene, const Probe& probe)
 {
     const std::size_t count = scene.lights.size();
-    PolicyView view{.probability = std::vector<double>(count, 0), .draws_every_light = P::draws_every_light};
+    PolicyView view{.probability = std::vector<double>(count, 0),
+                    .draws_every_light = P::draws_every_light};
     if (count == 0) return view;
     const P policy(scene.lights);
     const ProbeColumns columns(scene.lights, probe.position);
@@ -52,7 +62,9 @@ template <class P> PolicyView view_of(const Scene& scene, const Probe& probe)
     ChoicePoint<double> point{};
     point.x = Vec3<double>(0), point.n = probe.normal;
     const auto table = policy.template prepare<double>(point, columns.view(), scratch);
-    for (std::size_t j = 0; j < count; ++j) view.probability[j] = table.probability(static_cast<LightIndex>(j));
+    for (std::size_t j = 0; j < count; ++j)
+        view.probability[j] = table.probability(static_cast<LightIndex>(j));
+    if (!P::draws_every_light) normalize(view.probability);
     return view;
 }
 
@@ -82,12 +94,12 @@ LightTechniqueView light_technique(std::string_view technique)
     for_each_type(Techniques{}, [&]<class K>() {
         if constexpr (K::chooses_light) {
             if (K::name == technique)
-                view = {K::sums_lights, [](const Cap<double>& cap, const Vec3<double>& n, double cos_theta) {
-                            return K::pdf(cap, n, cos_theta);
-                        }};
+                view = {K::sums_lights, [](const Cap<double>& cap, const Vec3<double>& n,
+                                           double cos_theta) { return K::pdf(cap, n, cos_theta); }};
         }
     });
-    if (view.pdf == nullptr) throw std::out_of_range("no technique draws a light as " + std::string(technique));
+    if (view.pdf == nullptr)
+        throw std::out_of_range("no technique draws a light as " + std::string(technique));
     return view;
 }
 
@@ -100,7 +112,8 @@ DirectionPdf direction_technique(std::string_view technique)
                 pdf = [](double bsdf_pdf, const Vec3<double>& wi) { return K::pdf(bsdf_pdf, wi); };
         }
     });
-    if (pdf == nullptr) throw std::out_of_range("no technique draws a direction as " + std::string(technique));
+    if (pdf == nullptr)
+        throw std::out_of_range("no technique draws a direction as " + std::string(technique));
     return pdf;
 }
 

@@ -27,7 +27,8 @@ struct LightTechniqueView {
 };
 LightTechniqueView light_technique(std::string_view technique);
 
-/// A technique that draws over the hemisphere: its density from the BSDF's and the direction in the shading frame.
+/// A technique that draws over the hemisphere: its density from the BSDF's and the direction in the
+/// shading frame.
 using DirectionPdf = double (*)(double bsdf_pdf, const Vec3<double>& wi_local);
 DirectionPdf direction_technique(std::string_view technique);
 

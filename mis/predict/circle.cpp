@@ -7,7 +7,8 @@ std::array<PlanePoint, 2> tangent_points(const Circle& circle)
     const double far = std::hypot(circle.bx, circle.by);
     if (!(circle.sine < far)) return {};
     const double toward = std::atan2(circle.by, circle.bx), half = std::asin(circle.sine / far);
-    const double tau = std::sqrt(circle.c / circle.a);  // the double root of a meridian that touches
+    const double tau =
+        std::sqrt(circle.c / circle.a);  // the double root of a meridian that touches
     return {{{toward - half, tau}, {toward + half, tau}}};
 }
 
@@ -18,15 +19,18 @@ std::array<PlanePoint, 2> common_points(const Circle& p, const Circle& q)
     const double h = q.a * p.c - p.a * q.c;
     const double norm = std::hypot(nx, ny);
     if (!(norm > 0)) return {};
-    const double fx = nx / norm * (h / norm), fy = ny / norm * (h / norm);  // foot of the pole on the line
+    const double fx = nx / norm * (h / norm),
+                 fy = ny / norm * (h / norm);  // foot of the pole on the line
     const double ux = -ny / norm, uy = nx / norm;
     // Along the line, foot + s·u, the rounder circle is a s² − 4 (b·u) s + (a f² − 4 b·f + c) = 0.
     const Circle& round = std::abs(p.a) > std::abs(q.a) ? p : q;
     const double b = round.bx * ux + round.by * uy;
-    const double rest = round.a * (fx * fx + fy * fy) - 4 * (round.bx * fx + round.by * fy) + round.c;
+    const double rest =
+        round.a * (fx * fx + fy * fy) - 4 * (round.bx * fx + round.by * fy) + round.c;
     const double root2 = 4 * b * b - round.a * rest;
     if (!(root2 >= 0) || round.a == 0) return {};
-    const double s1 = (2 * b + std::sqrt(root2)) / round.a, s2 = (2 * b - std::sqrt(root2)) / round.a;
+    const double s1 = (2 * b + std::sqrt(root2)) / round.a,
+                 s2 = (2 * b - std::sqrt(root2)) / round.a;
     const auto point = [&](double s) {
         const double x = fx + s * ux, y = fy + s * uy;
         return PlanePoint{std::atan2(y, x), std::hypot(x, y)};

@@ -27,26 +27,33 @@ struct Polar {
     double azimuth(const Vec3<double>& w) const { return std::atan2(dot(w, e2), dot(w, e1)); }
 };
 
-/// The part of a meridian (0 ≤ τ < ∞, τ = tan θ/2) that lies inside a circle: [low, high], or all but that.
+/// The part of a meridian (0 ≤ τ < ∞, τ = tan θ/2) that lies inside a circle: [low, high], or all
+/// but that.
 struct Chord {
     double low = 0, high = 0;
     bool inverted = false;
     bool holds(double tau) const { return (low <= tau && tau <= high) != inverted; }
 };
 
-/// A circle of directions, projected stereographically from the antipode of the pole, where it is a circle again:
-/// a (X² + Y²) − 4 (bx X + by Y) + c ≤ 0 inside, (X, Y) = τ (cos φ, sin φ) (docs/theory-predict.md, P12, P13).
+/// A circle of directions, projected stereographically from the antipode of the pole, where it is a
+/// circle again: a (X² + Y²) − 4 (bx X + by Y) + c ≤ 0 inside, (X, Y) = τ (cos φ, sin φ)
+/// (docs/theory-predict.md, P12, P13).
 struct Circle {
     double a, bx, by, c;
-    double sine = 1;   ///< of its angular radius
-    int ball = -1;     ///< whose cap it bounds; −1: the horizon, whose inside is above
+    double sine = 1;  ///< of its angular radius
+    int ball = -1;    ///< whose cap it bounds; −1: the horizon, whose inside is above
 
     /// The cap about pole + delta.
-    static Circle of_cap(const Polar& polar, const Vec3<double>& delta, double one_minus_cos, double sine, int ball)
+    static Circle of_cap(const Polar& polar, const Vec3<double>& delta, double one_minus_cos,
+                         double sine, int ball)
     {
         const double delta2 = length2(delta);
-        return {4 - delta2 - 2 * one_minus_cos, dot(delta, polar.e1), dot(delta, polar.e2), delta2 - 2 * one_minus_cos,
-                sine, ball};
+        return {4 - delta2 - 2 * one_minus_cos,
+                dot(delta, polar.e1),
+                dot(delta, polar.e2),
+                delta2 - 2 * one_minus_cos,
+                sine,
+                ball};
     }
     /// The half of all directions about `axis`.
     static Circle of_half(const Polar& polar, const Vec3<double>& axis, int ball)
@@ -60,7 +67,8 @@ struct Circle {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
         const double b = bx * cos_phi + by * sin_phi;
-        const double past = bx * sin_phi - by * cos_phi;  // how far off the centre the meridian passes
+        const double past =
+            bx * sin_phi - by * cos_phi;  // how far off the centre the meridian passes
         // b² − ac/4, without cancellation for small circles far from the pole.
         const double root2 = is_great() ? b * b + a * a / 4 : (sine - past) * (sine + past);
         if (root2 < 0) return {infinity, infinity, a < 0 || (a == 0 && c < 0)};
@@ -76,7 +84,8 @@ struct Circle {
 
 /// A point of the projection plane; NaN where there is none.
 struct PlanePoint {
-    double phi = std::numeric_limits<double>::quiet_NaN(), tau = std::numeric_limits<double>::quiet_NaN();
+    double phi = std::numeric_limits<double>::quiet_NaN(),
+           tau = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Where meridians touch a circle that the pole lies outside of.

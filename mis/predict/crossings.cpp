@@ -25,18 +25,23 @@ public:
         if (!std::isfinite(ya) || !std::isfinite(yb) || (ya < 0) == (yb < 0)) return;
         std::uintmax_t rounds = 60;
         const auto [below, above] = boost::math::tools::toms748_solve(
-            [this](double x) { return f_(x) - level_; }, a.x, b.x, ya, yb, boost::math::tools::eps_tolerance<double>(46),
-            rounds);
-        found.push_back((below + above) / 2);
+            [this](double x) { return f_(x) - level_; }, a.x, b.x, ya, yb,
+            boost::math::tools::eps_tolerance<double>(46), rounds);
+        const double x = (below + above) / 2;
+        if (x >= a.x && x <= b.x)
+            found.push_back(x);  // not so where it met what is not finite on its way
     }
 
-    /// All three on one side, the middle one nearest: the function may turn beyond the level and come back.
+    /// All three on one side, the middle one nearest: the function may turn beyond the level and
+    /// come back.
     void around(const Point& a, const Point& b, const Point& c)
     {
         const double ya = a.y - level_, yb = b.y - level_, yc = c.y - level_;
         const bool one_side = (ya < 0) == (yb < 0) && (yb < 0) == (yc < 0);
         const double gap = std::abs(yb), rise = std::abs(ya - yb) + std::abs(yc - yb);
-        if (!std::isfinite(ya + yb + yc) || !one_side || gap > std::abs(ya) || gap > std::abs(yc) || gap > rise) return;
+        if (!std::isfinite(ya + yb + yc) || !one_side || gap > std::abs(ya) || gap > std::abs(yc) ||
+            gap > rise)
+            return;
         const double side = yb < 0 ? -1 : 1;
         std::uintmax_t rounds = 40;
         const auto [x, y] = boost::math::tools::brent_find_minima(

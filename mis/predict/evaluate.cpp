@@ -10,7 +10,8 @@ namespace {
 constexpr std::size_t padded = Rule::padded;
 
 /// Adds ∫ p y^m, m = 1 … 4, by both rules.
-void add_moments(const NodeColumn& p, const NodeColumn& y, const Nodes& nodes, double* kronrod, double* gauss)
+void add_moments(const NodeColumn& p, const NodeColumn& y, const Nodes& nodes, double* kronrod,
+                 double* gauss)
 {
     constexpr std::size_t lanes = 4;  // sums side by side: a single one could not be vectorised
     std::array<std::array<double, lanes>, 4> k{}, g{};
@@ -30,7 +31,8 @@ void add_moments(const NodeColumn& p, const NodeColumn& y, const Nodes& nodes, d
 }
 
 /// X = weight · F/density of a draw, less its shift; where nothing is drawn, anything finite.
-NodeColumn shifted_value(const NodeColumn& weight, const NodeColumn& value, const NodeColumn& density, double shift)
+NodeColumn shifted_value(const NodeColumn& weight, const NodeColumn& value,
+                         const NodeColumn& density, double shift)
 {
     NodeColumn y;
     for (std::size_t i = 0; i < padded; ++i)
@@ -57,7 +59,8 @@ void Nodes::place(double begin, double end)
     }
 }
 
-Tally::Tally(const Plan& plan, const Group& group, const Patch& patch, const std::vector<StrategyMoments>& shifts)
+Tally::Tally(const Plan& plan, const Group& group, const Patch& patch,
+             const std::vector<StrategyMoments>& shifts)
 {
     for (const std::size_t s : group.strategies) {
         const StrategyMoments& moments = shifts[s];
@@ -65,17 +68,17 @@ Tally::Tally(const Plan& plan, const Group& group, const Patch& patch, const std
         if (plan.strategies[s].draws_every_light)
             for (const int light : patch.lights())
                 slots_.push_back({s, light, moments.light[static_cast<std::size_t>(light)].shift});
-        else if (!moments.light.empty())
-            slots_.push_back({s, 0, moments.light.front().shift});
+        else if (!moments.light.empty()) slots_.push_back({s, 0, moments.light.front().shift});
         if (!moments.bsdf.empty()) slots_.push_back({s, -1, 0});
     }
 }
 
 Evaluator::Evaluator(const Sky& sky, const Response& response, const Plan& plan, const Group& group,
                      const Patch& patch, const Tally& tally)
-    : sky_(&sky), response_(&response), plan_(&plan), group_(&group), patch_(&patch), tally_(&tally),
-      cap_pdf_(plan.techniques.size() * patch.lights().size()), density_(plan.densities.size()),
-      density_used_(plan.densities.size()), technique_used_(plan.techniques.size())
+    : sky_(&sky), response_(&response), plan_(&plan), group_(&group), patch_(&patch),
+      tally_(&tally), cap_pdf_(plan.techniques.size() * patch.lights().size()),
+      density_(plan.densities.size()), density_used_(plan.densities.size()),
+      technique_used_(plan.techniques.size())
 {
     for (const std::size_t s : group.strategies) {
         if (plan.strategies[s].density < 0) continue;
@@ -124,22 +127,25 @@ void Evaluator::price(const Nodes& nodes, const Stretch& stretch, const Meridian
         for (const int k : along) {
             if (!plan_->techniques[technique].sums_lights && k != stretch.nearest_local) continue;
             const auto local = static_cast<std::size_t>(k);
-            const double p = plan_->policies[policy].probability[static_cast<std::size_t>(patch_->lights()[local])];
-            for (std::size_t i = 0; i < padded; ++i) sum[i] += p * cap_pdf_[technique * lights + local][i];
+            const double p = plan_->policies[policy]
+                                 .probability[static_cast<std::size_t>(patch_->lights()[local])];
+            for (std::size_t i = 0; i < padded; ++i)
+                sum[i] += p * cap_pdf_[technique * lights + local][i];
         }
     }
 }
 
-void Evaluator::add(const Nodes& nodes, const Stretch& stretch, const Meridian& meridian, std::span<double> kronrod,
-                    std::span<double> gauss)
+void Evaluator::add(const Nodes& nodes, const Stretch& stretch, const Meridian& meridian,
+                    std::span<double> kronrod, std::span<double> gauss)
 {
     price(nodes, stretch, meridian);
     for (std::size_t i = 0; i < group_->strategies.size(); ++i)
         add_strategy(i, nodes, stretch, meridian, kronrod, gauss);
 }
 
-void Evaluator::add_strategy(std::size_t i, const Nodes& nodes, const Stretch& stretch, const Meridian& meridian,
-                             std::span<double> kronrod, std::span<double> gauss)
+void Evaluator::add_strategy(std::size_t i, const Nodes& nodes, const Stretch& stretch,
+                             const Meridian& meridian, std::span<double> kronrod,
+                             std::span<double> gauss)
 {
     const StrategyPlan& s = plan_->strategies[group_->strategies[i]];
     std::size_t slot = tally_->first_slot(i);
@@ -149,7 +155,8 @@ void Evaluator::add_strategy(std::size_t i, const Nodes& nodes, const Stretch& s
     if (s.direction != nullptr) {
         NodeColumn pdf, one;
         one.fill(1);
-        for (std::size_t k = 0; k < padded; ++k) pdf[k] = s.direction(nodes.bsdf_pdf[k], nodes.wi_local[k]);
+        for (std::size_t k = 0; k < padded; ++k)
+            pdf[k] = s.direction(nodes.bsdf_pdf[k], nodes.wi_local[k]);
         add_to(slot, pdf, shifted_value(one, nodes.value, pdf, 0));
         return;
     }
@@ -159,19 +166,26 @@ void Evaluator::add_strategy(std::size_t i, const Nodes& nodes, const Stretch& s
     NodeColumn light_weight, bsdf_weight;
     s.rule->weigh(light_density, bsdf_density, light_weight, bsdf_weight);
     if (!s.draws_every_light) {
-        add_to(slot, density_[d], shifted_value(light_weight, nodes.value, light_density, tally_->slots()[slot].shift));
+        add_to(
+            slot, density_[d],
+            shifted_value(light_weight, nodes.value, light_density, tally_->slots()[slot].shift));
         ++slot;
     } else {
-        const std::size_t lights = patch_->lights().size(), technique = plan_->densities[d].technique;
+        const std::size_t lights = patch_->lights().size(),
+                          technique = plan_->densities[d].technique;
         for (std::size_t a = 0; a < stretch.along; ++a) {
             const auto local = static_cast<std::size_t>(meridian.along[stretch.first_along + a]);
-            if (!plan_->techniques[technique].sums_lights && static_cast<int>(local) != stretch.nearest_local) continue;
+            if (!plan_->techniques[technique].sums_lights &&
+                static_cast<int>(local) != stretch.nearest_local)
+                continue;
             add_to(slot + local, cap_pdf_[technique * lights + local],
-                   shifted_value(light_weight, nodes.value, light_density, tally_->slots()[slot + local].shift));
+                   shifted_value(light_weight, nodes.value, light_density,
+                                 tally_->slots()[slot + local].shift));
         }
         slot += lights;
     }
-    if (s.bsdf_draws > 0) add_to(slot, nodes.bsdf_pdf, shifted_value(bsdf_weight, nodes.value, bsdf_density, 0));
+    if (s.bsdf_draws > 0)
+        add_to(slot, nodes.bsdf_pdf, shifted_value(bsdf_weight, nodes.value, bsdf_density, 0));
 }
 
 double Evaluator::ratio(const Vec3<double>& around, double theta, const Stretch& stretch,

@@ -11,29 +11,36 @@ namespace mis {
 
 namespace {
 
-template <class H> double weight_at(double ratio) { return H::template weight<double, 2>({1, ratio}, 0); }
+template <class H> double weight_at(double ratio)
+{
+    return H::template weight<double, 2>({1, ratio}, 0);
+}
 
-/// Weights depend on the ratio of the densities alone. Wherever they change over a step of the ratio, the step is halved
-/// until it is one rounding wide: what is left of the change there is a jump.
+/// Weights depend on the ratio of the densities alone. Wherever they change over a step of the
+/// ratio, the step is halved until it is one rounding wide: what is left of the change there is a
+/// jump.
 template <class H> std::vector<double> jumps_of()
 {
     std::vector<double> jumps;
     constexpr double steps_per_octave = 8;
     for (double k = -40 * steps_per_octave; k < 40 * steps_per_octave; ++k) {
-        double low = std::exp2((k - 0.37) / steps_per_octave), high = std::exp2((k + 0.63) / steps_per_octave);
+        double low = std::exp2((k - 0.37) / steps_per_octave),
+               high = std::exp2((k + 0.63) / steps_per_octave);
         while (std::nextafter(low, high) < high) {
             const double middle = low + (high - low) / 2;
             const bool more_below = std::abs(weight_at<H>(low) - weight_at<H>(middle)) >
                                     std::abs(weight_at<H>(middle) - weight_at<H>(high));
             (more_below ? high : low) = middle;
         }
-        if (std::abs(weight_at<H>(low) - weight_at<H>(high)) > 1e-9) jumps.push_back(low + (high - low) / 2);
+        if (std::abs(weight_at<H>(low) - weight_at<H>(high)) > 1e-9)
+            jumps.push_back(low + (high - low) / 2);
     }
     return jumps;
 }
 
 template <class H>
-void weigh(const NodeColumn& light, const NodeColumn& bsdf, NodeColumn& light_weight, NodeColumn& bsdf_weight)
+void weigh(const NodeColumn& light, const NodeColumn& bsdf, NodeColumn& light_weight,
+           NodeColumn& bsdf_weight)
 {
     for (std::size_t i = 0; i < Rule::padded; ++i) {
         const std::array<double, 2> density{light[i], bsdf[i]};
@@ -45,7 +52,9 @@ void weigh(const NodeColumn& light, const NodeColumn& bsdf, NodeColumn& light_we
 std::map<std::string, WeightRule, std::less<>> all_rules()
 {
     std::map<std::string, WeightRule, std::less<>> rules;
-    for_each_type(Heuristics{}, [&]<class H>() { rules[std::string(H::name)] = {weigh<H>, jumps_of<H>()}; });
+    for_each_type(Heuristics{}, [&]<class H>() {
+        rules[std::string(H::name)] = {weigh<H>, jumps_of<H>()};
+    });
     return rules;
 }
 
@@ -55,7 +64,8 @@ const WeightRule& weight_rule(std::string_view heuristic)
 {
     static const std::map<std::string, WeightRule, std::less<>> rules = all_rules();
     const auto found = rules.find(heuristic);
-    if (found == rules.end()) throw std::out_of_range("no heuristic is called " + std::string(heuristic));
+    if (found == rules.end())
+        throw std::out_of_range("no heuristic is called " + std::string(heuristic));
     return found->second;
 }
 

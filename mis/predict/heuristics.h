@@ -7,11 +7,11 @@
 
 namespace mis {
 
-/// A heuristic by name: the weights of a light and a BSDF draw from both densities, node by node, and the ratios
-/// (BSDF density over light density) at which they jump.
+/// A heuristic by name: the weights of a light and a BSDF draw from both densities, node by node,
+/// and the ratios (BSDF density over light density) at which they jump.
 struct WeightRule {
-    void (*weigh)(const NodeColumn& light_density, const NodeColumn& bsdf_density, NodeColumn& light_weight,
-                  NodeColumn& bsdf_weight);
+    void (*weigh)(const NodeColumn& light_density, const NodeColumn& bsdf_density,
+                  NodeColumn& light_weight, NodeColumn& bsdf_weight);
     std::vector<double> jumps;
 };
 

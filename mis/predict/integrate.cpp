@@ -14,16 +14,18 @@ constexpr double sum_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 class PatchIntegral {
 public:
-    PatchIntegral(const Patch& patch, Evaluator& evaluator, const Group& group, std::size_t size, const Effort& effort)
-        : patch_(patch), evaluator_(evaluator), group_(group), effort_(effort), size_(size),
-          total_{std::vector<double>(size), std::vector<double>(size)}
+    PatchIntegral(const Patch& patch, Evaluator& evaluator, const Group& group, std::size_t size,
+                  const Effort& effort)
+        : patch_(patch), evaluator_(evaluator), group_(group), effort_(effort),
+          size_(size), total_{std::vector<double>(size), std::vector<double>(size)}
     {
         for (const double jump : group.jumps) levels_.push_back(std::log(jump));
     }
 
     Integrals run()
     {
-        const std::vector<double> azimuths = group_.jumps.empty() ? patch_.azimuths() : cut_by_jumps(patch_.azimuths());
+        const std::vector<double> azimuths =
+            group_.jumps.empty() ? patch_.azimuths() : cut_by_jumps(patch_.azimuths());
         for (std::size_t i = 0; i + 1 < azimuths.size(); ++i)
             around(azimuths[i], azimuths[i + 1], -1, 1, 0);
         return std::move(total_);
@@ -33,11 +35,15 @@ private:
     /// Room for one level of a recursion.
     struct Room {
         std::vector<double> kronrod, gauss, error;
-        void clear(std::size_t size) { kronrod.assign(size, 0), gauss.assign(size, 0), error.assign(size, 0); }
+        void clear(std::size_t size)
+        {
+            kronrod.assign(size, 0), gauss.assign(size, 0), error.assign(size, 0);
+        }
     };
 
-    /// The azimuths from `begin` to `end`, as φ = middle + half · sin(πs/2): at either end a meridian may touch a
-    /// circle, where its integral goes as a square root of φ, but smoothly with s. Here s from `low` to `high`.
+    /// The azimuths from `begin` to `end`, as φ = middle + half · sin(πs/2): at either end a
+    /// meridian may touch a circle, where its integral goes as a square root of φ, but smoothly
+    /// with s. Here s from `low` to `high`.
     void around(double begin, double end, double low, double high, int depth)
     {
         Room& room = around_room_[static_cast<std::size_t>(depth)];
@@ -45,7 +51,8 @@ private:
         const double middle = (begin + end) / 2, half = (end - begin) / 2;
         for (std::size_t i = 0; i < Rule::nodes; ++i) {
             const double s = (low + high) / 2 + (high - low) / 2 * rule().x[i];
-            const double jacobian = half * pi<double> / 2 * std::cos(pi<double> / 2 * s) * (high - low) / 2;
+            const double jacobian =
+                half * pi<double> / 2 * std::cos(pi<double> / 2 * s) * (high - low) / 2;
             along(middle + half * std::sin(pi<double> / 2 * s));
             const double k = jacobian * rule().kronrod[i], g = jacobian * rule().gauss[i];
             for (std::size_t c = 0; c < size_; ++c) {
@@ -54,7 +61,8 @@ private:
                 room.error[c] += k * ray_.error[c];
             }
         }
-        if (is_rough(room, 1) && depth < effort_.max_halvings && meridians_ < effort_.max_meridians) {
+        if (is_rough(room, 1) && depth < effort_.max_halvings &&
+            meridians_ < effort_.max_meridians) {
             around(begin, end, low, (low + high) / 2, depth + 1);
             around(begin, end, (low + high) / 2, high, depth + 1);
             return;
@@ -70,7 +78,8 @@ private:
     {
         if (effort_.tolerance.empty()) return false;
         for (std::size_t c = 0; c < size_; ++c)
-            if (std::abs(room.kronrod[c] - room.gauss[c]) > share * effort_.tolerance[c]) return true;
+            if (std::abs(room.kronrod[c] - room.gauss[c]) > share * effort_.tolerance[c])
+                return true;
         return false;
     }
 
@@ -107,60 +116,80 @@ private:
         }
         for (std::size_t c = 0; c < size_; ++c) {
             ray_.kronrod[c] += room.kronrod[c];
-            ray_.error[c] += std::abs(room.kronrod[c] - room.gauss[c]) + sum_rounding * std::abs(room.kronrod[c]);
+            ray_.error[c] += std::abs(room.kronrod[c] - room.gauss[c]) +
+                             sum_rounding * std::abs(room.kronrod[c]);
         }
     }
 
-    /// Where to cut a stretch: at the hints, and where the ratio of the densities crosses a jump of the weights.
+    /// Where to cut a stretch: at the hints, and where the weights jump.
     std::vector<double> cuts_of(const Stretch& stretch)
     {
         std::vector<double> cuts = meridian_.hints;
         if (group_.jumps.empty()) return cuts;
-        std::vector<double> looks = looking_points(stretch.begin, stretch.end, 24);
-        for (const double hint : meridian_.hints)
-            if (hint > looks.front() && hint < looks.back()) looks.push_back(hint);
-        std::sort(looks.begin(), looks.end());
-        const auto ratio = [&](double theta) { return log_ratio(meridian_, stretch, theta); };
-        const std::vector<double> jumps = crossings(ratio, looks, levels_);
+        const std::vector<double> jumps = jumps_along(stretch);
         cuts.insert(cuts.end(), jumps.begin(), jumps.end());
         std::sort(cuts.begin(), cuts.end());
         return cuts;
     }
 
-    double log_ratio(const Meridian& meridian, const Stretch& stretch, double theta) const
+    /// Where the ratio of the densities crosses a jump of the weights, along a stretch of
+    /// meridian_.
+    std::vector<double> jumps_along(const Stretch& stretch)
     {
-        return std::log(evaluator_.ratio(meridian.around, theta, stretch, meridian));
+        std::vector<double> looks = looking_points(stretch.begin, stretch.end, 24);
+        for (const double hint : meridian_.hints)
+            if (hint > looks.front() && hint < looks.back()) looks.push_back(hint);
+        std::sort(looks.begin(), looks.end());
+        return crossings([&](double theta) { return log_ratio(stretch, theta); }, looks, levels_);
     }
 
-    /// Adds the azimuths at which a curve of equal ratio leaves a stretch through one of its ends.
-    std::vector<double> cut_by_jumps(const std::vector<double>& azimuths)
+    double log_ratio(const Stretch& stretch, double theta) const
     {
-        std::vector<double> cut{azimuths.front()};
-        const auto add = [&](double phi) {
-            if (phi - cut.back() > 1e-14) cut.push_back(phi);
+        // At the horizon the BSDF's density may round to 0: far from every jump, and finite.
+        return std::clamp(std::log(evaluator_.ratio(meridian_.around, theta, stretch, meridian_)),
+                          -700.0, 700.0);
+    }
+
+    /// Adds the azimuths at which a curve of equal ratio leaves a stretch through one of its ends,
+    /// or touches a meridian.
+    std::vector<double> cut_by_jumps(std::vector<double> azimuths)
+    {
+        for (std::size_t i = 0, known = azimuths.size(); i + 1 < known; ++i)
+            add_leaving(azimuths[i], azimuths[i + 1], azimuths);
+        std::sort(azimuths.begin(), azimuths.end());
+        const auto counts_at = [&](double phi) {
+            patch_.meridian(phi, meridian_);
+            std::vector<std::size_t> counts;
+            for (const Stretch& stretch : meridian_.stretches)
+                counts.push_back(jumps_along(stretch).size());
+            return counts;
         };
-        for (std::size_t i = 0; i + 1 < azimuths.size(); ++i) {
-            const double begin = azimuths[i], end = azimuths[i + 1];
-            Meridian meridian;
-            patch_.meridian((begin + end) / 2, meridian);
-            const std::size_t stretches = meridian.stretches.size();
-            std::vector<double> found;
-            for (std::size_t k = 0; k < 2 * stretches; ++k) {
-                const auto ratio_at_end = [&](double phi) {
-                    patch_.meridian(phi, meridian);
-                    if (meridian.stretches.size() != stretches) return std::nan("");
-                    const Stretch& stretch = meridian.stretches[k / 2];
-                    return log_ratio(meridian, stretch, k % 2 == 0 ? stretch.begin : stretch.end);
-                };
-                const std::vector<double> more = crossings(ratio_at_end, looking_points(begin, end, 16), levels_);
-                found.insert(found.end(), more.begin(), more.end());
-            }
-            std::sort(found.begin(), found.end());
-            for (const double phi : found)
-                if (end - phi > 1e-14) add(phi);
-            add(end);
+        for (std::size_t i = 0, known = azimuths.size(); i + 1 < known; ++i) {
+            const std::vector<double> more =
+                changes(counts_at, looking_points(azimuths[i], azimuths[i + 1], 12));
+            azimuths.insert(azimuths.end(), more.begin(), more.end());
         }
-        return cut;
+        std::sort(azimuths.begin(), azimuths.end());
+        const auto same = [](double a, double b) { return b - a < 1e-13; };
+        azimuths.erase(std::unique(azimuths.begin(), azimuths.end(), same), azimuths.end());
+        return azimuths;
+    }
+
+    void add_leaving(double begin, double end, std::vector<double>& azimuths)
+    {
+        patch_.meridian((begin + end) / 2, meridian_);
+        const std::size_t stretches = meridian_.stretches.size();
+        for (std::size_t k = 0; k < 2 * stretches; ++k) {
+            const auto ratio_at_end = [&](double phi) {
+                patch_.meridian(phi, meridian_);
+                if (meridian_.stretches.size() != stretches) return std::nan("");
+                const Stretch& stretch = meridian_.stretches[k / 2];
+                return log_ratio(stretch, k % 2 == 0 ? stretch.begin : stretch.end);
+            };
+            const std::vector<double> more =
+                crossings(ratio_at_end, looking_points(begin, end, 16), levels_);
+            azimuths.insert(azimuths.end(), more.begin(), more.end());
+        }
     }
 
     const Patch& patch_;

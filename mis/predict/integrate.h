@@ -11,13 +11,15 @@ struct Integrals {
 
 /// How hard to try.
 struct Effort {
-    std::vector<double> tolerance;      ///< of each integral, absolute; empty: one rule per stretch, no refinement
-    int max_halvings = 26;              ///< of an interval, in either direction
-    std::size_t max_meridians = 20'000; ///< of a patch; what is beyond is left with the error it has
+    std::vector<double>
+        tolerance;  ///< of each integral, absolute; empty: one rule per stretch, no refinement
+    int max_halvings = 26;  ///< of an interval, in either direction
+    std::size_t max_meridians =
+        20'000;  ///< of a patch; what is beyond is left with the error it has
 };
 
-/// Integrates a group over a patch: along meridians, each cut where anything jumps, and around the pole, cut at the
-/// azimuths where a meridian meets other things (docs/theory-predict.md, P11).
+/// Integrates a group over a patch: along meridians, each cut where anything jumps, and around the
+/// pole, cut at the azimuths where a meridian meets other things (docs/theory-predict.md, P11).
 Integrals integrate(const Patch& patch, Evaluator& evaluator, const Group& group, std::size_t size,
                     const Effort& effort);
 

@@ -28,10 +28,12 @@ double width_of(const Profile& profile)
 Vec3<double> tangent_of_incidence(const Response& response)
 {
     const Vec3<double> across = cross(response.normal(), response.outgoing());
-    return length2(across) > 1e-20 ? normalized(cross(across, response.normal())) : Polar(response.normal()).e1;
+    return length2(across) > 1e-20 ? normalized(cross(across, response.normal()))
+                                   : Polar(response.normal()).e1;
 }
 
-/// Angles from n along the plane of incidence to look at: evenly, and in ever smaller steps towards the lobe.
+/// Angles from n along the plane of incidence to look at: evenly, and in ever smaller steps towards
+/// the lobe.
 std::vector<double> angles_of_incidence(double lobe_angle, double width)
 {
     constexpr int even = 256;
@@ -57,11 +59,13 @@ void add_turns(const Response& response, const std::vector<double>& angles, cons
     for (std::size_t i = 1; i + 1 < angles.size(); ++i) {
         const double a = at(angles[i - 1]), b = at(angles[i]), c = at(angles[i + 1]);
         const bool turns_here = (b > a && b > c) || (b < a && b < c);
-        if (!turns_here || std::min(std::abs(b - a), std::abs(b - c)) < 1e-9 * std::abs(b)) continue;  // but rounding
+        if (!turns_here || std::min(std::abs(b - a), std::abs(b - c)) < 1e-9 * std::abs(b))
+            continue;  // but rounding
         std::uintmax_t rounds = 50;
         const double side = b > a ? -1 : 1;
-        const auto found = boost::math::tools::brent_find_minima([&](double angle) { return side * at(angle); },
-                                                                 angles[i - 1], angles[i + 1], 26, rounds);
+        const auto found =
+            boost::math::tools::brent_find_minima([&](double angle) { return side * at(angle); },
+                                                  angles[i - 1], angles[i + 1], 26, rounds);
         turns.push_back(direction(found.first));
     }
 }
@@ -74,20 +78,25 @@ Lobe lobe_of(const Response& response)
     Lobe lobe{.direction = normalized(n * (2 * dot(n, wo)) - wo)};
     const Polar polar(lobe.direction);
     const Vec3<double> t = tangent_of_incidence(response);
-    const double phi = polar.azimuth(n * dot(t, wo) - t * dot(n, wo));  // along the plane of incidence
+    const double phi =
+        polar.azimuth(n * dot(t, wo) - t * dot(n, wo));  // along the plane of incidence
     for (int quarter = 0; quarter < 4; ++quarter) {
         const Vec3<double> around = polar.around(phi + quarter * pi<double> / 2);
         Profile f, pdf;
         for (int k = 0; k <= halvings; ++k) {
             const double angle = k < halvings ? std::ldexp(1.0, -k) : 0;
             const Reflected r = response.at(lobe.direction + polar.offset(around, angle));
-            f[static_cast<std::size_t>(k)] = luminance(r.f), pdf[static_cast<std::size_t>(k)] = r.pdf;
+            f[static_cast<std::size_t>(k)] = luminance(r.f),
+            pdf[static_cast<std::size_t>(k)] = r.pdf;
         }
         lobe.width = std::min({lobe.width, width_of(f), width_of(pdf)});
     }
-    const std::vector<double> angles = angles_of_incidence(std::atan2(-dot(t, wo), dot(n, wo)), lobe.width);
-    add_turns(response, angles, [](const Reflected& r) { return r.pdf; }, lobe.turns);
-    add_turns(response, angles, [](const Reflected& r) { return r.pdf / r.cos_theta; }, lobe.turns);
+    const std::vector<double> angles =
+        angles_of_incidence(std::atan2(-dot(t, wo), dot(n, wo)), lobe.width);
+    add_turns(
+        response, angles, [](const Reflected& r) { return r.pdf; }, lobe.turns);
+    add_turns(
+        response, angles, [](const Reflected& r) { return r.pdf / r.cos_theta; }, lobe.turns);
     return lobe;
 }
 

@@ -20,14 +20,17 @@ Central central(const DrawMoments& draw, double rounding)
     Central r;
     r.mean = {draw.shift + s1, e1 + rounding * (c + a1)};
     r.variance.value = s2 - s1 * s1;
-    // X is off by rounding·|X| ≤ rounding·(|X − c| + |c|): by Cauchy and Schwarz, what that does to E(X − c)².
+    // X is off by rounding·|X| ≤ rounding·(|X − c| + |c|): by Cauchy and Schwarz, what that does to
+    // E(X − c)².
     const double spread = std::sqrt(std::abs(s2));
-    r.variance.error = e2 + 2 * a1 * e1 + e1 * e1 + rounding * (4 * s2 + 2 * c * spread) + rounding * rounding * c * c;
+    r.variance.error = e2 + 2 * a1 * e1 + e1 * e1 + rounding * (4 * s2 + 2 * c * spread) +
+                       rounding * rounding * c * c;
     r.fourth.value = s4 - 4 * s1 * s3 + 6 * s1 * s1 * s2 - 3 * s1 * s1 * s1 * s1;
     const double size4 = s4 + 4 * a1 * a3 + 6 * a1 * a1 * s2 + 3 * a1 * a1 * a1 * a1;
     const double from_shift = c * rounding, spread4 = std::sqrt(std::sqrt(std::abs(s4)));
-    r.fourth.error = e4 + 4 * (a3 * e1 + a1 * e3) + 6 * (2 * a1 * s2 * e1 + a1 * a1 * e2) + 12 * a1 * a1 * a1 * e1 +
-                     8 * rounding * size4 + 4 * from_shift * spread4 * spread4 * spread4 +
+    r.fourth.error = e4 + 4 * (a3 * e1 + a1 * e3) + 6 * (2 * a1 * s2 * e1 + a1 * a1 * e2) +
+                     12 * a1 * a1 * a1 * e1 + 8 * rounding * size4 +
+                     4 * from_shift * spread4 * spread4 * spread4 +
                      from_shift * from_shift * from_shift * from_shift;
     return r;
 }
@@ -66,9 +69,10 @@ Figures figures_of(const StrategyMoments& moments, double rounding)
         const Central c = central(draw, rounding);
         add_scaled(sum.mean, c.mean, draws);
         add_scaled(sum.variance, c.variance, draws);
-        add_scaled(cumulant, {c.fourth.value - 3 * c.variance.value * c.variance.value,
-                              c.fourth.error + 6 * std::abs(c.variance.value) * c.variance.error +
-                                  3 * c.variance.error * c.variance.error},
+        add_scaled(cumulant,
+                   {c.fourth.value - 3 * c.variance.value * c.variance.value,
+                    c.fourth.error + 6 * std::abs(c.variance.value) * c.variance.error +
+                        3 * c.variance.error * c.variance.error},
                    draws);
     };
     if (moments.is_one_sample) {

@@ -18,16 +18,18 @@ struct Sums {
 
 /// One kind of independent draw of a strategy: how often a sample makes it, and its moments.
 struct DrawMoments {
-    double draws = 1;    ///< per sample
-    double shift = 0;    ///< 0, or near the mean: then every draw counts, and the moments are of X − shift
+    double draws = 1;  ///< per sample
+    double shift =
+        0;  ///< 0, or near the mean: then every draw counts, and the moments are of X − shift
     Sums sums;
 };
 
 /// All of one strategy's draws. In the one-sample model they are the halves of one draw.
 struct StrategyMoments {
     bool is_one_sample = false;
-    std::vector<DrawMoments> light;  ///< one; with `all`, one per light; none where no light is chosen
-    std::vector<DrawMoments> bsdf;   ///< one or none
+    std::vector<DrawMoments>
+        light;  ///< one; with `all`, one per light; none where no light is chosen
+    std::vector<DrawMoments> bsdf;  ///< one or none
 };
 
 /// A figure and a bound of how far off it can be.
@@ -35,7 +37,8 @@ struct Bounded {
     double value = 0, error = 0;
 };
 
-/// Mean, variance and fourth central moment of a sum of independent draws (docs/theory-predict.md, P7 to P10).
+/// Mean, variance and fourth central moment of a sum of independent draws (docs/theory-predict.md,
+/// P7 to P10).
 struct Figures {
     Bounded mean, variance, fourth;
 };

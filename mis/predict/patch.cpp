@@ -21,7 +21,8 @@ bool lobe_is_better_pole(const Ball& ball, const Lobe& lobe)
 
 bool is_smaller(const Ball& a, const Ball& b)
 {
-    return a.one_minus_cos < b.one_minus_cos || (a.one_minus_cos == b.one_minus_cos && a.light < b.light);
+    return a.one_minus_cos < b.one_minus_cos ||
+           (a.one_minus_cos == b.one_minus_cos && a.light < b.light);
 }
 
 /// θ in (0, π) where cos²θ·oo + 2 sin θ cos θ·oe + sin²θ·ee = 0.
@@ -41,7 +42,8 @@ std::vector<int> things_of(const Meridian& meridian)
     std::vector<int> things;
     for (const Stretch& stretch : meridian.stretches) {
         things.push_back(-1 - stretch.nearest);
-        for (std::size_t a = 0; a < stretch.along; ++a) things.push_back(meridian.along[stretch.first_along + a]);
+        for (std::size_t a = 0; a < stretch.along; ++a)
+            things.push_back(meridian.along[stretch.first_along + a]);
     }
     return things;
 }
@@ -58,11 +60,12 @@ bool goes_on(const Meridian& meridian, const Stretch& next)
            std::ranges::equal(things(last), things(next));
 }
 
-/// Directions from the origin to the points where the surfaces of two spheres meet just where one of them ends for the
-/// eye: the curve of equal distance starts there. `ends`: the one that ends.
+/// Directions from the origin to the points where the surfaces of two spheres meet just where one
+/// of them ends for the eye: the curve of equal distance starts there. `ends`: the one that ends.
 std::array<Vec3<double>, 2> rims_in_common(const Ball& ends, const Ball& other)
 {
-    // On the polar plane of the origin, p·c = d² − r², the plane of both spheres, p·m = h, and the sphere.
+    // On the polar plane of the origin, p·c = d² − r², the plane of both spheres, p·m = h, and the
+    // sphere.
     const Vec3<double> m = (other.to_center - ends.to_center) * 2.0;
     const double gap = ends.cap.gap2, h = other.cap.gap2 - gap;
     const Vec3<double> along = cross(ends.to_center, m);
@@ -71,7 +74,8 @@ std::array<Vec3<double>, 2> rims_in_common(const Ball& ends, const Ball& other)
     if (!(size2 > 0)) return {none, none};
     const Vec3<double> foot = (cross(m, along) * gap + cross(along, ends.to_center) * h) / size2;
     const Vec3<double> away = foot - ends.to_center;
-    const double b = dot(along, away) / size2, c = (length2(away) - ends.radius * ends.radius) / size2;
+    const double b = dot(along, away) / size2,
+                 c = (length2(away) - ends.radius * ends.radius) / size2;
     if (!(b * b - c >= 0)) return {none, none};
     const double root = std::sqrt(b * b - c);
     return {normalized(foot + along * (root - b)), normalized(foot - along * (root + b))};
@@ -101,11 +105,13 @@ void Patch::add_circle(int index)
         walls_.push_back(index);
         return;
     }
-    const Vec3<double> delta =
-        pole_is_lobe_ ? ball.cap.axis - polar_.pole : index == light_ ? Vec3<double>(0) : between_axes(self, ball);
-    circles_.push_back(ball.stands == Ball::Stands::beneath
-                           ? Circle::of_half(polar_, ball.cap.axis, index)
-                           : Circle::of_cap(polar_, delta, ball.one_minus_cos, ball.sin_max, index));
+    const Vec3<double> delta = pole_is_lobe_     ? ball.cap.axis - polar_.pole
+                               : index == light_ ? Vec3<double>(0)
+                                                 : between_axes(self, ball);
+    circles_.push_back(
+        ball.stands == Ball::Stands::beneath
+            ? Circle::of_half(polar_, ball.cap.axis, index)
+            : Circle::of_cap(polar_, delta, ball.one_minus_cos, ball.sin_max, index));
     deltas_.push_back(delta);
     smaller_.push_back(ball.is_light() && index != light_ && is_smaller(ball, self));
     local_of_circle_.push_back(ball.is_light() ? static_cast<int>(lights_.size()) : -1);
@@ -128,37 +134,20 @@ std::vector<double> Patch::azimuths() const
 {
     std::vector<double> breaks = known_azimuths();
     if (interlocked_.empty()) return breaks;
-    std::vector<double> all;
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-        all.push_back(breaks[i]);
-        add_changes(breaks[i], breaks[i + 1], all);
-    }
-    all.push_back(breaks.back());
-    return all;
-}
-
-/// Where interlocked spheres make a meridian meet other things than its neighbour does: found by halving.
-void Patch::add_changes(double begin, double end, std::vector<double>& azimuths) const
-{
-    Meridian meridian;
+    // Interlocked spheres make a meridian meet other things than its neighbour does at azimuths of
+    // no simple formula.
+    Meridian found;
     const auto things_at = [&](double phi) {
-        this->meridian(phi, meridian);
-        return things_of(meridian);
+        meridian(phi, found);
+        return things_of(found);
     };
-    const std::vector<double> phis = looking_points(begin, end, 24);
-    auto before = things_at(phis.front());
-    for (std::size_t i = 1; i < phis.size(); ++i) {
-        const auto after = things_at(phis[i]);
-        double low = phis[i - 1], high = phis[i];
-        for (auto last = after; before != last && high - low > 1e-14;) {
-            const double middle = (low + high) / 2;
-            const auto there = things_at(middle);
-            if (there == before) low = middle;
-            else high = middle, last = there;
-        }
-        if (before != after && low - azimuths.back() > 1e-13 && end - high > 1e-13) azimuths.push_back((low + high) / 2);
-        before = after;
+    for (std::size_t i = 0, known = breaks.size(); i + 1 < known; ++i) {
+        const std::vector<double> more =
+            changes(things_at, looking_points(breaks[i], breaks[i + 1], 24));
+        breaks.insert(breaks.end(), more.begin(), more.end());
     }
+    std::sort(breaks.begin(), breaks.end());
+    return breaks;  // two may all but agree: the interval between them weighs nothing
 }
 
 std::vector<double> Patch::known_azimuths() const
@@ -169,7 +158,8 @@ std::vector<double> Patch::known_azimuths() const
         if (!std::isfinite(point.phi)) return;
         const Chord chord = circles_[own].chord(point.phi);
         constexpr double rounding = 1e-6;  // a break too many is harmless
-        if (chord.inverted || (point.tau > chord.low * (1 - rounding) && point.tau < chord.high * (1 + rounding)))
+        if (chord.inverted ||
+            (point.tau > chord.low * (1 - rounding) && point.tau < chord.high * (1 + rounding)))
             add(point.phi);
     };
     const bool looks_from_lobe = pole_is_lobe_ || !lobe_.is_narrower_than(1);
@@ -180,7 +170,8 @@ std::vector<double> Patch::known_azimuths() const
             if (i != own) add_point(point);
             else if (std::isfinite(point.phi)) add(point.phi);
         for (std::size_t k = 0; k < i; ++k)
-            for (const PlanePoint& point : common_points(circles_[i], circles_[k])) add_point(point);
+            for (const PlanePoint& point : common_points(circles_[i], circles_[k]))
+                add_point(point);
     }
     const auto add_direction = [&](const Vec3<double>& w) {
         const double half_chord2 = length2(w - polar_.pole) / 4;
@@ -190,7 +181,8 @@ std::vector<double> Patch::known_azimuths() const
     for (const auto& [first, second] : interlocked_)
         for (const auto& [ends, other] : {std::array{first, second}, std::array{second, first}})
             if (sky_->ball(ends).stands == Ball::Stands::apart)
-                for (const Vec3<double>& w : rims_in_common(sky_->ball(ends), sky_->ball(other))) add_direction(w);
+                for (const Vec3<double>& w : rims_in_common(sky_->ball(ends), sky_->ball(other)))
+                    add_direction(w);
     std::sort(all.begin(), all.end());
     std::vector<double> breaks;
     for (const double phi : all)
@@ -206,18 +198,20 @@ double Patch::distance(int index, const Vec3<double>& offset) const
     if (ball.stands == Ball::Stands::around) {
         const Vec3<double> w = polar_.pole + offset;
         const double along = dot(ball.to_center, w), q = length(cross(ball.to_center, w));
-        return std::max(0.0, along + std::sqrt(std::max(0.0, (ball.radius - q) * (ball.radius + q))));
+        return std::max(0.0,
+                        along + std::sqrt(std::max(0.0, (ball.radius - q) * (ball.radius + q))));
     }
     std::size_t i = own;
     while (circles_[i].ball != index) ++i;
-    const double half_chord2 = length2(offset - deltas_[i]) / 2;  // 1 − cos of the angle to the axis
+    const double half_chord2 =
+        length2(offset - deltas_[i]) / 2;  // 1 − cos of the angle to the axis
     const double sin2 = half_chord2 * (2 - half_chord2);
     const double rest = std::sqrt(std::max(0.0, ball.sin_max * ball.sin_max - sin2));
     return ball.cap.gap2 / (ball.cap.distance * (1 - half_chord2 + rest));
 }
 
-void Patch::add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low, double high,
-                       std::vector<double>& breaks) const
+void Patch::add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low,
+                       double high, std::vector<double>& breaks) const
 {
     const auto add = [&](double theta) {
         if (theta > low && theta < high) breaks.push_back(theta);
@@ -231,10 +225,12 @@ void Patch::add_breaks(const std::vector<Chord>& chords, const Vec3<double>& aro
         const Ball& b = sky_->ball(second);
         const Vec3<double> m = (b.to_center - a.to_center) * 2.0, o = polar_.pole;
         const double h = b.cap.gap2 - a.cap.gap2, gap = a.cap.gap2;
-        const double mo = dot(m, o), me = dot(m, around), co = dot(a.to_center, o), ce = dot(a.to_center, around);
+        const double mo = dot(m, o), me = dot(m, around), co = dot(a.to_center, o),
+                     ce = dot(a.to_center, around);
         add_roots(h * h - 2 * h * mo * co + gap * mo * mo, -h * (mo * ce + me * co) + gap * mo * me,
                   h * h - 2 * h * me * ce + gap * me * me, angles);
-        angles.push_back(std::atan2(mo, -me) < 0 ? std::atan2(mo, -me) + pi<double> : std::atan2(mo, -me));
+        angles.push_back(std::atan2(mo, -me) < 0 ? std::atan2(mo, -me) + pi<double>
+                                                 : std::atan2(mo, -me));
     }
     for (const double angle : angles) add(angle);
     std::sort(breaks.begin(), breaks.end());
@@ -245,12 +241,13 @@ void Patch::add_hints(double high, Meridian& out) const
     if (pole_is_lobe_) {
         for (double theta = lobe_.width; theta < high; theta *= 4) out.hints.push_back(theta);
     } else if (lobe_.is_narrower_than(1)) {
-        out.hints.push_back(std::atan2(dot(lobe_.direction, out.around), dot(lobe_.direction, polar_.pole)));
+        out.hints.push_back(
+            std::atan2(dot(lobe_.direction, out.around), dot(lobe_.direction, polar_.pole)));
     }
 }
 
-bool Patch::describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around, Meridian& out,
-                     Stretch& stretch) const
+bool Patch::describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around,
+                     Meridian& out, Stretch& stretch) const
 {
     const double tau = std::tan(theta / 2);
     const Vec3<double> offset = polar_.offset(around, theta);

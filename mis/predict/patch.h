@@ -11,22 +11,24 @@ namespace mis {
 
 /// A stretch of a meridian over which the same lights stand in the same order.
 struct Stretch {
-    double begin, end;              ///< θ from the pole, radians
-    int nearest;                    ///< ball that is met first: a light that shines
-    std::size_t first_along, along; ///< of Meridian::along: the lights whose caps hold it, as numbers in Patch::lights()
-    int nearest_local;              ///< `nearest` as such a number
+    double begin, end;               ///< θ from the pole, radians
+    int nearest;                     ///< ball that is met first: a light that shines
+    std::size_t first_along, along;  ///< of Meridian::along: the lights whose caps hold it, as
+                                     ///< numbers in Patch::lights()
+    int nearest_local;               ///< `nearest` as such a number
 };
 
 /// What stands along one meridian of a patch.
 struct Meridian {
-    Vec3<double> around;            ///< unit tangent at the pole
+    Vec3<double> around;  ///< unit tangent at the pole
     std::vector<Stretch> stretches;
     std::vector<int> along;
-    std::vector<double> hints;      ///< θ, ascending: where the lobe may peak, and how wide it is
+    std::vector<double> hints;  ///< θ, ascending: where the lobe may peak, and how wide it is
 };
 
-/// The directions above the horizon whose smallest cap is that of one light: what of the sky is integrated in that
-/// light's own coordinates, so that the smallest structures are seen from near by (docs/theory-predict.md, P11).
+/// The directions above the horizon whose smallest cap is that of one light: what of the sky is
+/// integrated in that light's own coordinates, so that the smallest structures are seen from near
+/// by (docs/theory-predict.md, P11).
 class Patch {
 public:
     /// neighbours: the balls that could share a direction with the light's cap, itself excluded.
@@ -43,24 +45,23 @@ private:
     void add_circle(int ball);
     void add_pairs();
     std::vector<double> known_azimuths() const;
-    void add_changes(double begin, double end, std::vector<double>& azimuths) const;
     double distance(int ball, const Vec3<double>& offset) const;
-    void add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low, double high,
-                    std::vector<double>& breaks) const;
+    void add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low,
+                    double high, std::vector<double>& breaks) const;
     void add_hints(double high, Meridian& out) const;
-    bool describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around, Meridian& out,
-                  Stretch& stretch) const;
+    bool describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around,
+                  Meridian& out, Stretch& stretch) const;
 
     const Sky* sky_;
     int light_;
     Polar polar_;
     Lobe lobe_;
     bool pole_is_lobe_ = false;
-    std::vector<int> lights_, walls_;       ///< walls: surfaces that the point is inside of
-    std::vector<Circle> circles_;           ///< [0]: the own cap, [1]: the horizon, then the neighbours'
-    std::vector<Vec3<double>> deltas_;      ///< of the circles' axes from the pole
-    std::vector<int> local_of_circle_;      ///< number in lights_, −1 for none
-    std::vector<bool> smaller_;             ///< is the circle's cap that of a smaller light?
+    std::vector<int> lights_, walls_;  ///< walls: surfaces that the point is inside of
+    std::vector<Circle> circles_;      ///< [0]: the own cap, [1]: the horizon, then the neighbours'
+    std::vector<Vec3<double>> deltas_;             ///< of the circles' axes from the pole
+    std::vector<int> local_of_circle_;             ///< number in lights_, −1 for none
+    std::vector<bool> smaller_;                    ///< is the circle's cap that of a smaller light?
     std::vector<std::array<int, 2>> interlocked_;  ///< pairs of balls
 };
 

@@ -13,11 +13,12 @@ namespace mis {
 
 /// A strategy at one probe, all names resolved.
 struct StrategyPlan {
-    int density = -1;               ///< number in Plan::densities; −1 where no light is chosen
+    int density = -1;  ///< number in Plan::densities; −1 where no light is chosen
     const WeightRule* rule = nullptr;
     DirectionPdf direction = nullptr;  ///< where no light is chosen
-    double light_count = 0, bsdf_count = 0;  ///< n_i of the multi-sample model, c_i of the one-sample model
-    int light_draws = 0, bsdf_draws = 0;     ///< per sample; for each light with `all`
+    double light_count = 0,
+           bsdf_count = 0;  ///< n_i of the multi-sample model, c_i of the one-sample model
+    int light_draws = 0, bsdf_draws = 0;  ///< per sample; for each light with `all`
     bool is_one_sample = false;
     bool draws_every_light = false;
 };
@@ -27,12 +28,12 @@ struct LightDensity {
     std::size_t policy, technique;  ///< numbers in Plan
 };
 
-/// Strategies that are integrated at shared nodes: all whose weights are smooth, or those whose weights jump where one
-/// ratio of densities takes one of these values.
+/// Strategies that are integrated at shared nodes: all whose weights are smooth, or those whose
+/// weights jump where one ratio of densities takes one of these values.
 struct Group {
     std::vector<std::size_t> strategies;
-    std::vector<double> jumps;      ///< of BSDF density over light density, counts left out
-    int density = -1;               ///< which light density
+    std::vector<double> jumps;  ///< of BSDF density over light density, counts left out
+    int density = -1;           ///< which light density
 };
 
 /// Some strategies at one probe.
@@ -51,7 +52,8 @@ private:
     std::vector<std::string> policy_names_, technique_names_;
 };
 
-/// Empty moments of each strategy. Draws that all count get room for a shift (docs/theory-predict.md, P10).
+/// Empty moments of each strategy. Draws that all count get room for a shift
+/// (docs/theory-predict.md, P10).
 std::vector<StrategyMoments> empty_moments(const Plan& plan, std::size_t lights);
 
 /// For each light: does every draw towards it meet a light that shines, and count?

@@ -11,14 +11,14 @@ namespace mis {
 
 namespace {
 
-/// The integrals of one group over all patches, several times over: first to know the sizes of things, then to tolerances
-/// that follow from them.
+/// The integrals of one group over all patches, several times over: first to know the sizes of
+/// things, then to tolerances that follow from them.
 class GroupPrediction {
 public:
     GroupPrediction(const Sky& sky, const Response& response, const Plan& plan, const Group& group,
                     const std::vector<Patch>& patches, double tolerance, double rounding)
-        : sky_(sky), response_(response), plan_(plan), group_(group), patches_(patches), tolerance_(tolerance),
-          rounding_(rounding), empty_(empty_moments(plan, sky.lights))
+        : sky_(sky), response_(response), plan_(plan), group_(group), patches_(patches),
+          tolerance_(tolerance), rounding_(rounding), empty_(empty_moments(plan, sky.lights))
     {
     }
 
@@ -47,7 +47,8 @@ private:
             const Effort effort{.tolerance = refine ? tolerances_of(tally) : std::vector<double>{}};
             const Integrals found = integrate(patch, evaluator, group_, tally.size(), effort);
             for (std::size_t i = 0; i < tally.slots().size(); ++i)
-                draw_of(moments, tally.slots()[i]).sums.add(&found.value[4 * i], &found.error[4 * i]);
+                draw_of(moments, tally.slots()[i])
+                    .sums.add(&found.value[4 * i], &found.error[4 * i]);
         }
         return moments;
     }
@@ -61,7 +62,8 @@ private:
     std::vector<Figures> figures(const std::vector<StrategyMoments>& moments) const
     {
         std::vector<Figures> all;
-        for (const std::size_t s : group_.strategies) all.push_back(figures_of(moments[s], rounding_));
+        for (const std::size_t s : group_.strategies)
+            all.push_back(figures_of(moments[s], rounding_));
         return all;
     }
 
@@ -71,7 +73,8 @@ private:
         for (const std::size_t s : group_.strategies) {
             const StrategyPlan& plan = plan_.strategies[s];
             if (plan.density < 0 || plan.is_one_sample) continue;
-            const auto [policy, technique] = plan_.densities[static_cast<std::size_t>(plan.density)];
+            const auto [policy, technique] =
+                plan_.densities[static_cast<std::size_t>(plan.density)];
             const std::vector<bool> counts = all_draws_count(sky_, plan_.techniques[technique]);
             const std::vector<double>& p = plan_.policies[policy].probability;
             std::vector<DrawMoments>& light = empty_[s].light;
@@ -84,14 +87,19 @@ private:
             for (std::size_t j = 0; j < p.size(); ++j) {
                 if (!(p[j] > 0)) continue;
                 all = true;
-                if (!counts[j]) { all = false; break; }
+                if (!counts[j]) {
+                    all = false;
+                    break;
+                }
             }
             if (all) light.front().shift = moments[s].light.front().sums.value[0];
         }
     }
 
-    /// Absolute tolerances of the four moments of each draw, such that the figures meet the relative one.
-    void set_tolerances(const std::vector<StrategyMoments>& moments, const std::vector<Figures>& figures)
+    /// Absolute tolerances of the four moments of each draw, such that the figures meet the
+    /// relative one.
+    void set_tolerances(const std::vector<StrategyMoments>& moments,
+                        const std::vector<Figures>& figures)
     {
         tolerances_ = empty_;
         for (std::size_t i = 0; i < group_.strategies.size(); ++i) {
@@ -106,10 +114,15 @@ private:
     std::array<double, 4> tolerance_of(const DrawMoments& draw, const Figures& f) const
     {
         const auto& [s1, s2, s3, s4] = draw.sums.value;
-        const double floor = std::max(1e-13, 16 * rounding_), a1 = std::abs(s1), c = std::abs(draw.shift);
-        const double share = 1 / (draw.draws * static_cast<double>(std::clamp<std::size_t>(patches_.size(), 1, 16)));
-        const double t2 = std::max(share * tolerance_ * f.variance.value, floor * (s2 + 2 * c * std::sqrt(std::abs(s2)) + floor * c * c));
-        const double t1 = std::max(std::min(share * tolerance_ * std::abs(f.mean.value), t2 / (2 * a1)), floor * (a1 + c * rounding_));
+        const double floor = std::max(1e-13, 16 * rounding_), a1 = std::abs(s1),
+                     c = std::abs(draw.shift);
+        const double share =
+            1 / (draw.draws * static_cast<double>(std::clamp<std::size_t>(patches_.size(), 1, 16)));
+        const double t2 = std::max(share * tolerance_ * f.variance.value,
+                                   floor * (s2 + 2 * c * std::sqrt(std::abs(s2)) + floor * c * c));
+        const double t1 =
+            std::max(std::min(share * tolerance_ * std::abs(f.mean.value), t2 / (2 * a1)),
+                     floor * (a1 + c * rounding_));
         const double t4 = std::max(share * 10 * tolerance_ * f.fourth.value, floor * s4);
         const double t3 = std::max(t4 / (4 * a1), floor * std::abs(s3));
         return {t1, t2, t3, t4};
@@ -123,10 +136,12 @@ private:
         return all;
     }
 
-    static bool is_much_smaller(const std::vector<Figures>& found, const std::vector<Figures>& expected)
+    static bool is_much_smaller(const std::vector<Figures>& found,
+                                const std::vector<Figures>& expected)
     {
         for (std::size_t i = 0; i < found.size(); ++i)
-            if (4 * found[i].mean.value < expected[i].mean.value || 4 * found[i].variance.value < expected[i].variance.value)
+            if (4 * found[i].mean.value < expected[i].mean.value ||
+                4 * found[i].variance.value < expected[i].variance.value)
                 return true;
         return false;
     }
@@ -146,28 +161,32 @@ std::vector<Patch> patches_of(const Sky& sky, const Lobe& lobe)
 {
     std::vector<Patch> patches;
     for (std::size_t j = 0; j < sky.lights; ++j)
-        if (!is_below(sky.balls[j], sky.n)) patches.emplace_back(sky, static_cast<int>(j), sky.neighbours[j], lobe);
+        if (!is_below(sky.balls[j], sky.n))
+            patches.emplace_back(sky, static_cast<int>(j), sky.neighbours[j], lobe);
     return patches;
 }
 
 }  // namespace
 
-std::vector<Predicted> predict(const Scene& scene, const Probe& probe, std::span<const Strategy> strategies,
-                               const PredictOptions& options)
+std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
+                               std::span<const Strategy> strategies,
+                               const PredictTolerance& tolerance)
 {
     std::vector<Predicted> result(strategies.size());
     const Sky sky = sky_of(scene, probe);
-    if (sky.is_dark || scene.lights.empty() || !(dot(probe.normal, probe.outgoing) > 0)) return result;
+    if (sky.is_dark || scene.lights.empty() || !(dot(probe.normal, probe.outgoing) > 0))
+        return result;
     refuse_blockers(scene, probe);
-    const Response response(scene.materials[static_cast<std::size_t>(probe.material)], probe.normal, probe.outgoing);
+    const Response response(scene.materials[static_cast<std::size_t>(probe.material)], probe.normal,
+                            probe.outgoing);
     const Lobe lobe = lobe_of(response);
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * (2 + 1 / lobe.width);
     const Plan plan(scene, probe, strategies);
     const std::vector<Patch> patches = patches_of(sky, lobe);
     for (const Group& group : plan.groups) {
-        const double tolerance = group.jumps.empty() ? options.tolerance : options.jump_tolerance;
+        const double aim = group.jumps.empty() ? tolerance.smooth : tolerance.jumps;
         const std::vector<Figures> figures =
-            GroupPrediction(sky, response, plan, group, patches, tolerance, rounding).run();
+            GroupPrediction(sky, response, plan, group, patches, aim, rounding).run();
         for (std::size_t i = 0; i < figures.size(); ++i) {
             const Figures& f = figures[i];
             result[group.strategies[i]] = {f.mean.value,     f.mean.error,   f.variance.value,

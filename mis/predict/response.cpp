@@ -13,7 +13,9 @@ Response::Response(const Material& material, const Vec3<double>& n, const Vec3<d
         if (B::name != material.type) return;
         const B bsdf(material);
         draws_ = bsdf.draws();
-        evaluate_ = [bsdf](const Vec3<double>& o, const Vec3<double>& i) { return bsdf.evaluate(o, i); };
+        evaluate_ = [bsdf](const Vec3<double>& o, const Vec3<double>& i) {
+            return bsdf.evaluate(o, i);
+        };
     });
     if (!evaluate_) throw std::out_of_range("no BSDF is called " + material.type);
 }

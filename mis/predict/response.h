@@ -11,8 +11,8 @@ namespace mis {
 
 /// What the surface does with light from one direction; all 0 below the horizon.
 struct Reflected {
-    Vec3<double> f{0};     ///< sr⁻¹, RGB; without the cosine
-    double pdf = 0;        ///< of the BSDF's own draws, per steradian
+    Vec3<double> f{0};  ///< sr⁻¹, RGB; without the cosine
+    double pdf = 0;     ///< of the BSDF's own draws, per steradian
     double cos_theta = 0;
 };
 

@@ -16,11 +16,12 @@ struct Ball {
     };
     Vec3<double> to_center;
     double radius = 0;
-    Cap<double> cap{};               ///< its gap2 is negative for `around`; unused for `beneath` but for the axis
-    double sin_max = 0;              ///< of the cap's half-angle
+    Cap<double>
+        cap{};  ///< its gap2 is negative for `around`; unused for `beneath` but for the axis
+    double sin_max = 0;  ///< of the cap's half-angle
     double one_minus_cos = 0;
     LightIndex light = no_light;
-    Vec3<double> radiance{0};        ///< W·sr⁻¹·m⁻²; 0 for surfaces
+    Vec3<double> radiance{0};  ///< W·sr⁻¹·m⁻²; 0 for surfaces
     Stands stands = Stands::apart;
 
     bool is_light() const { return light != no_light; }
@@ -29,24 +30,27 @@ struct Ball {
 
 /// What one probe could see: its lights (ball j is light j), then the spheres that occlude.
 struct Sky {
-    Vec3<double> n;            ///< unit shading normal
+    Vec3<double> n;  ///< unit shading normal
     std::vector<Ball> balls;
-    std::vector<std::vector<int>> neighbours;  ///< of each light: the balls that could share a direction with its cap
+    std::vector<std::vector<int>>
+        neighbours;  ///< of each light: the balls that could share a direction with its cap
     std::size_t lights = 0;
-    bool is_dark = false;      ///< the point is inside a light or on it
+    bool is_dark = false;  ///< the point is inside a light or on it
 
     const Ball& ball(int index) const { return balls[static_cast<std::size_t>(index)]; }
 };
 
 Sky sky_of(const Scene& scene, const Probe& probe);
 
-/// axis of b − axis of a, with full relative precision for neighbours (docs/theory-predict.md, P14).
+/// axis of b − axis of a, with full relative precision for neighbours (docs/theory-predict.md,
+/// P14).
 Vec3<double> between_axes(const Ball& a, const Ball& b);
 
 /// Could their caps have a direction in common? True at the edge.
 bool overlap(const Ball& a, const Ball& b);
 
-/// Do the two spheres' surfaces meet in space? Then neither need be the nearer one all over their common directions.
+/// Do the two spheres' surfaces meet in space? Then neither need be the nearer one all over their
+/// common directions.
 bool interlock(const Ball& a, const Ball& b);
 
 /// Could `front` hide a part of `back`? False only where it provably cannot.

@@ -6,7 +6,8 @@
 
 namespace mis {
 
-/// On a oneTBB arena of `threads` threads, the caller's among them; 0 takes as many as the machine has.
+/// On a oneTBB arena of `threads` threads, the caller's among them; 0 takes as many as the machine
+/// has.
 class TbbExecutor {
 public:
     explicit TbbExecutor(int threads = 0);

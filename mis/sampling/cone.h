@@ -4,32 +4,34 @@
 
 namespace mis {
 
-/// A direction drawn in a cap. The offset from the axis is kept beside the rounded direction: a float direction rounds
-/// at some 2e-8 rad, which is more than a small cap is wide.
+/// A direction drawn in a cap. The offset from the axis is kept beside the rounded direction: a
+/// float direction rounds at some 2e-8 rad, which is more than a small cap is wide.
 template <class T> struct CapDraw {
-    Vec3<T> wi;         ///< unit direction
-    Vec3<T> offset;     ///< wi − axis, with full relative precision
-    T distance;         ///< along wi to the near side of the sphere; scene units
-    T inverse_pdf_sin2; ///< 1/(pdf · sin²θ_max), sr: finite where 1/pdf would underflow
+    Vec3<T> wi;          ///< unit direction
+    Vec3<T> offset;      ///< wi − axis, with full relative precision
+    T distance;          ///< along wi to the near side of the sphere; scene units
+    T inverse_pdf_sin2;  ///< 1/(pdf · sin²θ_max), sr: finite where 1/pdf would underflow
 };
 
-/// The point (in polar coordinates about the axis) of the cap at which sin²θ = w · sin²θ_max, at azimuth φ.
-/// one_minus_cos: of θ.
+/// The point (in polar coordinates about the axis) of the cap at which sin²θ = w · sin²θ_max, at
+/// azimuth φ. one_minus_cos: of θ.
 template <class T>
-MIS_INLINE CapDraw<T> cap_draw_at(const Cap<T>& cap, const T& w, const T& one_minus_cos, const T& phi)
+MIS_INLINE CapDraw<T> cap_draw_at(const Cap<T>& cap, const T& w, const T& one_minus_cos,
+                                  const T& phi)
 {
     using std::sqrt, std::cos, std::sin;
     const T sin_theta = cap.sin_max * sqrt(w);
     const Frame<T> frame = frame_around(cap.axis);
-    const Vec3<T> offset =
-        frame.x * (sin_theta * cos(phi)) + frame.y * (sin_theta * sin(phi)) - cap.axis * one_minus_cos;
+    const Vec3<T> offset = frame.x * (sin_theta * cos(phi)) + frame.y * (sin_theta * sin(phi)) -
+                           cap.axis * one_minus_cos;
     const T half_chord = cap.radius * sqrt(max_of(number<T>(1) - w, number<T>(0)));
     const T along = cap.distance * (number<T>(1) - one_minus_cos);
     return {cap.axis + offset, offset, cap.gap2 / (along + half_chord), number<T>(0)};
 }
 
 /// A direction uniform in solid angle over the cap. u: two uniform numbers in [0, 1).
-/// Source: Shirley, Wang and Zimmerman 1996, §3.2; in 1 − cos θ, so that nothing cancels (docs/theory.md, eq. 5).
+/// Source: Shirley, Wang and Zimmerman 1996, §3.2; in 1 − cos θ, so that nothing cancels
+/// (docs/theory.md, eq. 5).
 template <class T> MIS_INLINE CapDraw<T> sample_cone(const Cap<T>& cap, const Vec2<T>& u)
 {
     const T one_minus_cos = u.x * cap.one_minus_cos();  // uniform when the direction is
@@ -40,6 +42,9 @@ template <class T> MIS_INLINE CapDraw<T> sample_cone(const Cap<T>& cap, const Ve
 }
 
 /// Density of sample_cone, per steradian; infinite for caps below 1e-19 rad in float.
-template <class T> MIS_INLINE T cone_pdf(const Cap<T>& cap) { return number<T>(1) / cap.solid_angle(); }
+template <class T> MIS_INLINE T cone_pdf(const Cap<T>& cap)
+{
+    return number<T>(1) / cap.solid_angle();
+}
 
 }  // namespace mis

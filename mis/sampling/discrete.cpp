@@ -33,11 +33,13 @@ AliasTable::AliasTable(std::span<const double> weights)
             small.push_back(rich);
         }
     }
-    // What is left is full but for rounding; a weight of 0 must not be drawn from its own cell all the same.
+    // What is left is full but for rounding; a weight of 0 must not be drawn from its own cell all
+    // the same.
     for (const std::uint32_t i : small) {
         if (weights[i] > 0) continue;
         cells_[i].border = 0;
-        cells_[i].alias = static_cast<std::uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
+        cells_[i].alias = static_cast<std::uint32_t>(
+            std::max_element(weights.begin(), weights.end()) - weights.begin());
     }
 }
 

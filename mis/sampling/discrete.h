@@ -14,8 +14,9 @@ struct Choice {
     double probability;
 };
 
-/// An index in proportion to fixed weights, in constant time: Walker's alias method, built as Vose 1991 ("A linear
-/// algorithm for generating random numbers with a given distribution"). 12 bytes per weight.
+/// An index in proportion to fixed weights, in constant time: Walker's alias method, built as Vose
+/// 1991 ("A linear algorithm for generating random numbers with a given distribution"). 12 bytes
+/// per weight.
 class AliasTable {
 public:
     /// weights: not negative, finite. All zero: choose() gives −1.
@@ -28,7 +29,8 @@ public:
         __extension__ using Wide = unsigned __int128;
         const Wide product = static_cast<Wide>(bits) * cells_.size();
         const auto cell = static_cast<std::size_t>(product >> 64);
-        const double fraction = static_cast<double>(static_cast<std::uint64_t>(product) >> 11) * 0x1p-53;
+        const double fraction =
+            static_cast<double>(static_cast<std::uint64_t>(product) >> 11) * 0x1p-53;
         const double border = static_cast<double>(cells_[cell].border);
         const bool is_own = (border < 0 ? fraction - 1 : fraction) < border;
         const std::size_t light = is_own ? cell : cells_[cell].alias;
@@ -37,30 +39,38 @@ public:
 
     MIS_INLINE double probability(std::int32_t light) const
     {
-        return cells_.empty() ? 0 : static_cast<double>(cells_[static_cast<std::size_t>(light)].probability);
+        return cells_.empty()
+                   ? 0
+                   : static_cast<double>(cells_[static_cast<std::size_t>(light)].probability);
     }
 
 private:
     struct Cell {
-        /// Up to where the fraction means the cell's own index: below ½ counted from 0, else, negative, from 1. So both
-        /// the rare own index and the thin slice of the alias keep a float's relative precision: of 10⁷ nearly equal
-        /// weights, the one that tops up all others would else be drawn 10 % too often.
+        /// Up to where the fraction means the cell's own index: below ½ counted from 0, else,
+        /// negative, from 1. So both the rare own index and the thin slice of the alias keep a
+        /// float's relative precision: of 10⁷ nearly equal weights, the one that tops up all others
+        /// would else be drawn 10 % too often (docs/theory.md §7).
         float border = 1;
         std::uint32_t alias;
         float probability;
     };
-    static float border_at(double share) { return static_cast<float>(share < 0.5 ? share : share - 1); }
+    static float border_at(double share)
+    {
+        return static_cast<float>(share < 0.5 ? share : share - 1);
+    }
     std::vector<Cell> cells_;
 };
 
-/// An index in proportion to weights that change from point to point: a running sum over storage of the caller's.
+/// An index in proportion to weights that change from point to point: a running sum over storage of
+/// the caller's.
 class RunningSum {
 public:
     /// weights: not negative, finite; kept by reference, as `sums` is, of the same length.
     template <class T> static RunningSum over(std::span<const T> weights, std::span<double> sums)
     {
         double sum = 0;
-        for (std::size_t i = 0; i < weights.size(); ++i) sums[i] = sum += static_cast<double>(weights[i]);
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            sums[i] = sum += static_cast<double>(weights[i]);
         return RunningSum(sums);
     }
 
@@ -68,7 +78,8 @@ public:
     {
         if (!(inverse_total_ > 0)) return {-1, 0};
         // Below the total even when the product rounds up to it.
-        const double target = static_cast<double>(bits >> 11) * (0x1p-53 * (1 - 0x1p-52)) * sums_.back();
+        const double target =
+            static_cast<double>(bits >> 11) * (0x1p-53 * (1 - 0x1p-52)) * sums_.back();
         // The first sum above the target; it never is that of a weight of 0.
         std::size_t first = 0, count = sums_.size();
         while (count > 1) {

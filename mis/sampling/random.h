@@ -7,8 +7,8 @@
 
 namespace mis {
 
-// Random numbers without state: a number is a function of (seed, point, sample, draw, dimension) alone, so any part of
-// the work can run anywhere, in any order, and be merged.
+// Random numbers without state: a number is a function of (seed, point, sample, draw, dimension)
+// alone, so any part of the work can run anywhere, in any order, and be merged.
 
 /// Where in a study a random number is spent.
 struct Counter {
@@ -27,7 +27,8 @@ namespace detail {
 /// One round of Philox-4×32.
 MIS_INLINE Words philox_round(const Words& c, std::uint32_t key0, std::uint32_t key1)
 {
-    const std::uint64_t a = std::uint64_t{0xD2511F53u} * c[0], b = std::uint64_t{0xCD9E8D57u} * c[2];
+    const std::uint64_t a = std::uint64_t{0xD2511F53u} * c[0],
+                        b = std::uint64_t{0xCD9E8D57u} * c[2];
     return {static_cast<std::uint32_t>(b >> 32) ^ c[1] ^ key0, static_cast<std::uint32_t>(b),
             static_cast<std::uint32_t>(a >> 32) ^ c[3] ^ key1, static_cast<std::uint32_t>(a)};
 }
@@ -36,8 +37,9 @@ MIS_INLINE Words philox_round(const Words& c, std::uint32_t key0, std::uint32_t 
 /// The counter of a block, as the four words that are scrambled.
 MIS_INLINE Words counter_words(const Counter& counter, Block block)
 {
-    return {counter.point, static_cast<std::uint32_t>(counter.sample), counter.draw,
-            static_cast<std::uint32_t>(counter.sample >> 32) << 1 | static_cast<std::uint32_t>(block)};
+    return {
+        counter.point, static_cast<std::uint32_t>(counter.sample), counter.draw,
+        static_cast<std::uint32_t>(counter.sample >> 32) << 1 | static_cast<std::uint32_t>(block)};
 }
 
 /// Philox-4×32 with the seven rounds that pass BigCrush.
@@ -62,7 +64,8 @@ MIS_INLINE Words random_words(std::uint64_t seed, const Counter& counter, Block 
 /// A word as a number in [0, 1): 24 bits of it in float, all 32 in double.
 template <class T> MIS_INLINE T unit_number(std::uint32_t word)
 {
-    if constexpr (sizeof(T) == 4) return static_cast<T>(static_cast<std::int32_t>(word >> 8)) * T(0x1p-24);
+    if constexpr (sizeof(T) == 4)
+        return static_cast<T>(static_cast<std::int32_t>(word >> 8)) * T(0x1p-24);
     else return static_cast<T>(word) * T(0x1p-32);
 }
 

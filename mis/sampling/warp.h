@@ -4,8 +4,8 @@
 
 namespace mis {
 
-// Directions about the z axis, each beside its density per steradian. u: two uniform numbers in [0, 1).
-// Equation numbers "GI" are of Dutré, Global Illumination Compendium (2003).
+// Directions about the z axis, each beside its density per steradian. u: two uniform numbers in [0,
+// 1). Equation numbers "GI" are of Dutré, Global Illumination Compendium (2003).
 
 /// The direction at azimuth φ whose 1 − cos θ is given.
 template <class T> MIS_INLINE Vec3<T> direction_at(const T& one_minus_cos, const T& phi)
@@ -29,7 +29,10 @@ template <class T> MIS_INLINE Vec3<T> sample_cosine(const Vec2<T>& u)
     const T sin_theta = sqrt(u.x), phi = T(two_pi<T>) * u.y;
     return {sin_theta * cos(phi), sin_theta * sin(phi), sqrt(number<T>(1) - u.x)};
 }
-template <class T> MIS_INLINE T cosine_pdf(const T& cos_theta) { return cos_theta * number<T>(0.31830988618379067154); }
+template <class T> MIS_INLINE T cosine_pdf(const T& cos_theta)
+{
+    return cos_theta * number<T>(0.31830988618379067154);
+}
 
 /// In proportion to cos^m θ (GI 36).
 template <class T> MIS_INLINE Vec3<T> sample_lobe(const Vec2<T>& u, double m)

@@ -7,8 +7,8 @@
 
 namespace mis {
 
-/// What a surface is made of, as the scene file says it. `type` is a name of the BSDF registry; a field that the type
-/// does not use is 0. Which fields a type reads: docs/scene-format.md.
+/// What a surface is made of, as the scene file says it. `type` is a name of the BSDF registry; a
+/// field that the type does not use is 0. Which fields a type reads: docs/scene-format.md.
 struct Material {
     std::string name;
     std::string type = "lambert";

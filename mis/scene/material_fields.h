@@ -11,7 +11,8 @@ namespace mis {
 /// What numbers a field of a material may hold.
 enum class FieldRange { zero_to_one, not_negative, above_zero_to_one };
 
-/// One field of a material in the scene file, and the member of Material that keeps it: a colour, or a number.
+/// One field of a material in the scene file, and the member of Material that keeps it: a colour,
+/// or a number.
 struct MaterialField {
     std::string_view name;
     FieldRange range;
@@ -33,15 +34,18 @@ inline constexpr std::array lambert{MaterialField{"albedo", zero_to_one, &Materi
 inline constexpr std::array lecture{MaterialField{"kd", not_negative, &Material::diffuse},
                                     MaterialField{"ks", not_negative, &Material::specular},
                                     MaterialField{"m", not_negative, nullptr, &Material::exponent}};
-inline constexpr std::array blinn{MaterialField{"diffuse", zero_to_one, &Material::diffuse},
-                                  MaterialField{"specular", zero_to_one, &Material::specular},
-                                  MaterialField{"exponent", not_negative, nullptr, &Material::exponent}};
-inline constexpr std::array ggx{MaterialField{"diffuse", zero_to_one, &Material::diffuse, nullptr, false},
-                                MaterialField{"f0", zero_to_one, &Material::specular},
-                                MaterialField{"alpha", above_zero_to_one, nullptr, &Material::alpha}};
+inline constexpr std::array blinn{
+    MaterialField{"diffuse", zero_to_one, &Material::diffuse},
+    MaterialField{"specular", zero_to_one, &Material::specular},
+    MaterialField{"exponent", not_negative, nullptr, &Material::exponent}};
+inline constexpr std::array ggx{
+    MaterialField{"diffuse", zero_to_one, &Material::diffuse, nullptr, false},
+    MaterialField{"f0", zero_to_one, &Material::specular},
+    MaterialField{"alpha", above_zero_to_one, nullptr, &Material::alpha}};
 }  // namespace material_fields
 
-/// Every type of material, and what it reads: the reader, the rules and docs/scene.schema.json follow from this list.
+/// Every type of material, and what it reads: the reader, the rules and docs/scene.schema.json
+/// follow from this list.
 inline constexpr std::array material_types{
     MaterialType{"lambert", material_fields::lambert, false},
     MaterialType{"lecture", material_fields::lecture},

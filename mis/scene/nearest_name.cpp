@@ -19,7 +19,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const bool same = lower(a[i - 1]) == lower(b[j - 1]);
             row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-            const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) &&
+                                 lower(a[i - 2]) == lower(b[j - 1]);
             if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
         }
         std::swap(before_last, last);
@@ -35,7 +36,8 @@ std::string_view nearest_name(std::string_view typed, std::span<const std::strin
     constexpr std::size_t longest = 64;  // what is longer is no misspelt name of ours
     if (typed.empty() || typed.size() > longest) return {};
     std::string_view nearest;
-    std::size_t least = std::max<std::size_t>(1, typed.size() / 2) + 1;  // as much wrong as right: no offer
+    std::size_t least =
+        std::max<std::size_t>(1, typed.size() / 2) + 1;  // as much wrong as right: no offer
     for (const std::string_view name : known) {
         const std::size_t distance = edit_distance(typed, name);
         if (distance < least && distance < name.size()) least = distance, nearest = name;
@@ -43,7 +45,8 @@ std::string_view nearest_name(std::string_view typed, std::span<const std::strin
     return nearest;
 }
 
-std::string did_you_mean(std::string_view typed, std::span<const std::string_view> known, std::string_view otherwise)
+std::string did_you_mean(std::string_view typed, std::span<const std::string_view> known,
+                         std::string_view otherwise)
 {
     const std::string_view nearest = nearest_name(typed, known);
     if (nearest.empty()) return std::string(otherwise);

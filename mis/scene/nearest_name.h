@@ -6,12 +6,14 @@
 
 namespace mis {
 
-/// The name that was probably meant by `typed`: the nearest by edit distance (insert, delete, replace, swap neighbours;
-/// capitals do not count), if it is near enough to be worth offering; empty if none is. A tie goes to the first.
+/// The name that was probably meant by `typed`: the nearest by edit distance (insert, delete,
+/// replace, swap neighbours; capitals do not count), if it is near enough to be worth offering;
+/// empty if none is. A tie goes to the first.
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> known);
 
 /// `Did you mean "lambert"?`, or `otherwise` where no known name is near.
-std::string did_you_mean(std::string_view typed, std::span<const std::string_view> known, std::string_view otherwise);
+std::string did_you_mean(std::string_view typed, std::span<const std::string_view> known,
+                         std::string_view otherwise);
 
 /// "a, b, c"; of more than twenty, the first, and how many more.
 std::string comma_list(std::span<const std::string_view> names);

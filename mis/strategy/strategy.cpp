@@ -15,7 +15,9 @@ namespace {
 template <class List> std::vector<Choosable> listed(List list)
 {
     std::vector<Choosable> names;
-    for_each_type(list, [&]<class C>() { names.push_back({std::string(C::name), std::string(C::summary)}); });
+    for_each_type(list, [&]<class C>() {
+        names.push_back({std::string(C::name), std::string(C::summary)});
+    });
     return names;
 }
 
@@ -42,11 +44,12 @@ std::string suggestion(std::string_view found, const std::vector<Choosable>& lis
     return near.empty() ? "" : "\n    Did you mean \"" + std::string(near) + "\"?";
 }
 
-[[noreturn]] void refuse_unknown(std::string_view strategy, std::string_view kind, std::string_view found,
-                                 const std::vector<Choosable>& list)
+[[noreturn]] void refuse_unknown(std::string_view strategy, std::string_view kind,
+                                 std::string_view found, const std::vector<Choosable>& list)
 {
-    throw StrategyError("strategy \"" + std::string(strategy) + "\": found " + std::string(kind) + " \"" +
-                        std::string(found) + "\"; known are " + known(list) + suggestion(found, list));
+    throw StrategyError("strategy \"" + std::string(strategy) + "\": found " + std::string(kind) +
+                        " \"" + std::string(found) + "\"; known are " + known(list) +
+                        suggestion(found, list));
 }
 
 [[noreturn]] void refuse(std::string_view strategy, const std::string& reason)
@@ -57,7 +60,9 @@ std::string suggestion(std::string_view found, const std::vector<Choosable>& lis
 bool chooses_light(std::string_view technique)
 {
     bool chooses = false;
-    for_each_type(Techniques{}, [&]<class K>() { chooses = chooses || (K::name == technique && K::chooses_light); });
+    for_each_type(Techniques{}, [&]<class K>() {
+        chooses = chooses || (K::name == technique && K::chooses_light);
+    });
     return chooses;
 }
 
@@ -66,20 +71,24 @@ std::array<int, 2> parse_counts(std::string_view strategy, std::string_view text
     std::array<int, 2> counts{};
     const std::size_t plus = text.find('+');
     const auto number = [&](std::string_view digits, int& out) {
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), out);
-        return error == std::errc{} && end == digits.data() + digits.size() && out >= 0 && out <= 1'000'000;
+        const auto [end, error] =
+            std::from_chars(digits.data(), digits.data() + digits.size(), out);
+        return error == std::errc{} && end == digits.data() + digits.size() && out >= 0 &&
+               out <= 1'000'000;
     };
     if (plus == std::string_view::npos || !number(text.substr(0, plus), counts[0]) ||
         !number(text.substr(plus + 1), counts[1]))
-        refuse(strategy, "found counts \"@" + std::string(text) +
-                             "\"; counts are @LIGHT+BSDF draws per sample, 0 to 1000000 each, as in @4+1");
+        refuse(strategy,
+               "found counts \"@" + std::string(text) +
+                   "\"; counts are @LIGHT+BSDF draws per sample, 0 to 1000000 each, as in @4+1");
     return counts;
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator)
 {
     std::vector<std::string_view> parts;
-    for (std::size_t at; (at = text.find(separator)) != std::string_view::npos; text.remove_prefix(at + 1))
+    for (std::size_t at; (at = text.find(separator)) != std::string_view::npos;
+         text.remove_prefix(at + 1))
         parts.push_back(text.substr(0, at));
     parts.push_back(text);
     return parts;
@@ -90,14 +99,16 @@ std::vector<std::string_view> split(std::string_view text, char separator)
 bool draws_every_light(std::string_view policy)
 {
     bool every = false;
-    for_each_type(Policies{}, [&]<class P>() { every = every || (P::name == policy && P::draws_every_light); });
+    for_each_type(Policies{},
+                  [&]<class P>() { every = every || (P::name == policy && P::draws_every_light); });
     return every;
 }
 
 bool looks_at_point(std::string_view policy)
 {
     bool looks = false;
-    for_each_type(Policies{}, [&]<class P>() { looks = looks || (P::name == policy && P::looks_at_point); });
+    for_each_type(Policies{},
+                  [&]<class P>() { looks = looks || (P::name == policy && P::looks_at_point); });
     return looks;
 }
 
@@ -124,7 +135,8 @@ std::string name_of(const Strategy& s)
     if (s.technique != "cone") name += "/" + s.technique;
     if (s.model == Model::one_sample) name += "/one-sample";
     const std::array<int, 2> usual = s.heuristic == "light" ? std::array{1, 0} : std::array{1, 1};
-    if (s.counts != usual) name += "@" + std::to_string(s.counts[0]) + "+" + std::to_string(s.counts[1]);
+    if (s.counts != usual)
+        name += "@" + std::to_string(s.counts[0]) + "+" + std::to_string(s.counts[1]);
     return name;
 }
 
@@ -134,30 +146,38 @@ Strategy checked(Strategy s)
     if (find(technique_names(), s.technique) == nullptr)
         refuse_unknown(name, "technique", s.technique, technique_names());
     if (!s.chooses_light()) {
-        if (chooses_light(s.technique)) refuse(name, "\"" + s.technique + "\" draws towards a light: name a policy");
+        if (chooses_light(s.technique))
+            refuse(name, "\"" + s.technique + "\" draws towards a light: name a policy");
         if (!s.heuristic.empty() || s.model == Model::one_sample || s.counts != std::array{0, 1})
-            refuse(name, "a strategy that chooses no light has one draw and nothing to combine it with");
+            refuse(name,
+                   "a strategy that chooses no light has one draw and nothing to combine it with");
         return s;
     }
-    if (find(policy_names(), s.policy) == nullptr) refuse_unknown(name, "policy", s.policy, policy_names());
+    if (find(policy_names(), s.policy) == nullptr)
+        refuse_unknown(name, "policy", s.policy, policy_names());
     if (s.heuristic == "brdf" || s.heuristic == "cosine" || s.heuristic == "hemisphere")
         refuse(name, "it draws no light, so it has no policy; say \"" + s.heuristic + "\"");
     if (find(heuristic_names(), s.heuristic) == nullptr)
         refuse_unknown(name, "heuristic", s.heuristic, heuristic_names());
     if (!chooses_light(s.technique))
-        refuse(name, "\"" + s.technique + "\" draws no light, so it has no policy; say \"" + s.technique + "\"");
+        refuse(name, "\"" + s.technique + "\" draws no light, so it has no policy; say \"" +
+                         s.technique + "\"");
     const bool single = s.heuristic == "light";
     if (s.model == Model::one_sample) {
-        if (single) refuse(name, "one-sample chooses between techniques, and \"light\" has only one");
+        if (single)
+            refuse(name, "one-sample chooses between techniques, and \"light\" has only one");
         if (draws_every_light(s.policy))
-            refuse(name, "one-sample draws one technique once, and \"" + s.policy + "\" draws for every light");
-        if (s.counts != std::array{1, 1}) refuse(name, "one-sample takes one draw, so it has no counts");
+            refuse(name, "one-sample draws one technique once, and \"" + s.policy +
+                             "\" draws for every light");
+        if (s.counts != std::array{1, 1})
+            refuse(name, "one-sample takes one draw, so it has no counts");
     }
     if (s.counts[0] == 0) refuse(name, "it draws no light; say \"brdf\"");
     if (single && s.counts[1] != 0)
         refuse(name, "\"light\" has no BSDF draw; say @" + std::to_string(s.counts[0]) + "+0");
     if (!single && s.counts[1] == 0)
-        refuse(name, "\"" + s.heuristic + "\" combines light and BSDF draws, and there is none of the BSDF; say \"" +
+        refuse(name, "\"" + s.heuristic +
+                         "\" combines light and BSDF draws, and there is none of the BSDF; say \"" +
                          s.policy + "/light@" + std::to_string(s.counts[0]) + "+0\"");
     return s;
 }
@@ -171,14 +191,15 @@ Strategy parse_strategy(std::string_view name)
         s.technique = parts[0];
         s.counts = {0, 1};
         if (find(policy_names(), parts[0]) != nullptr)
-            refuse(name, "a policy needs a heuristic: \"" + std::string(parts[0]) + "/light\", or one of " +
-                             known(heuristic_names()));
+            refuse(name, "a policy needs a heuristic: \"" + std::string(parts[0]) +
+                             "/light\", or one of " + known(heuristic_names()));
         if (find(technique_names(), parts[0]) == nullptr) {
             std::vector<Choosable> whole;
             for (const Choosable& c : technique_names())
                 if (!mis::chooses_light(c.name)) whole.push_back(c);
-            throw StrategyError("found \"" + std::string(name) + "\"; a strategy is policy/heuristic, or one of " +
-                                known(whole) + suggestion(name, whole));
+            throw StrategyError("found \"" + std::string(name) +
+                                "\"; a strategy is policy/heuristic, or one of " + known(whole) +
+                                suggestion(name, whole));
         }
     } else {
         s.policy = parts[0];
@@ -195,7 +216,8 @@ Strategy parse_strategy(std::string_view name)
             }
             if (is_technique && has_technique) refuse(name, "a strategy has one technique");
             if (s.model == Model::one_sample)
-                refuse(name, is_technique ? "the technique stands before \"one-sample\"" : "\"one-sample\" stands there twice");
+                refuse(name, is_technique ? "the technique stands before \"one-sample\""
+                                          : "\"one-sample\" stands there twice");
             if (is_technique) s.technique = parts[i], has_technique = true;
             else s.model = Model::one_sample;
         }

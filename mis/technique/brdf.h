@@ -10,12 +10,16 @@ struct BrdfTechnique {
     static constexpr std::string_view summary = "the BSDF's own draw";
     static constexpr bool chooses_light = false;
     template <class B, class T>
-    MIS_INLINE static Vec3<T> sample(const B& bsdf, const Vec3<T>& wo, const T& lobe, const Vec2<T>& u)
+    MIS_INLINE static Vec3<T> sample(const B& bsdf, const Vec3<T>& wo, const T& lobe,
+                                     const Vec2<T>& u)
     {
         return bsdf.sample(wo, lobe, u);
     }
     /// bsdf_pdf: the BSDF's density at wi.
-    template <class T> MIS_INLINE static T pdf(const T& bsdf_pdf, const Vec3<T>&) { return bsdf_pdf; }
+    template <class T> MIS_INLINE static T pdf(const T& bsdf_pdf, const Vec3<T>&)
+    {
+        return bsdf_pdf;
+    }
     template <class B> static bool draws(const B& bsdf) { return bsdf.draws(); }
 };
 

@@ -14,7 +14,10 @@ struct CosineTechnique {
     {
         return sample_cosine(u);
     }
-    template <class T> MIS_INLINE static T pdf(const T&, const Vec3<T>& wi) { return cosine_pdf(wi.z); }
+    template <class T> MIS_INLINE static T pdf(const T&, const Vec3<T>& wi)
+    {
+        return cosine_pdf(wi.z);
+    }
     template <class B> static bool draws(const B&) { return true; }
 };
 

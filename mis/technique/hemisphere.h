@@ -14,7 +14,10 @@ struct HemisphereTechnique {
     {
         return sample_hemisphere(u);
     }
-    template <class T> MIS_INLINE static T pdf(const T&, const Vec3<T>&) { return hemisphere_pdf<T>(); }
+    template <class T> MIS_INLINE static T pdf(const T&, const Vec3<T>&)
+    {
+        return hemisphere_pdf<T>();
+    }
     template <class B> static bool draws(const B&) { return true; }
 };
 

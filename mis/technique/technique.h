@@ -9,26 +9,47 @@
 
 namespace mis {
 
-// Which direction, and how dense? Light techniques draw inside the cap of a chosen light; direction techniques draw
-// over the hemisphere, from the BSDF or without it.
+// Which direction, and how dense? Light techniques draw inside the cap of a chosen light; direction
+// techniques draw over the hemisphere, from the BSDF or without it.
 
-/// A technique that draws in a cap. `n` is the shading normal. sums_lights: its density is the sum over all lights
-/// whose cap holds the direction, and its radiance that of whichever is nearest (`union`).
+/// A technique that draws in a cap. `n` is the shading normal. sums_lights: its density is the sum
+/// over all lights whose cap holds the direction, and its radiance that of whichever is nearest
+/// (`union`).
 template <class K, class T>
-concept LightTechnique = requires(const Cap<T>& cap, const Vec2<T>& u, const Vec3<T>& n, const T& cos_theta) {
-    { K::name } -> std::convertible_to<std::string_view>;
-    { K::sums_lights } -> std::convertible_to<bool>;
-    { K::draw(cap, n, u) } -> std::same_as<CapDraw<T>>;
-    { K::pdf(cap, n, cos_theta) } -> std::same_as<T>;
+concept LightTechnique = requires(const Cap<T>& cap, const Vec2<T>& u, const Vec3<T>& n,
+                                  const T& cos_theta)
+{
+    {
+        K::name
+        } -> std::convertible_to<std::string_view>;
+    {
+        K::sums_lights
+        } -> std::convertible_to<bool>;
+    {
+        K::draw(cap, n, u)
+        } -> std::same_as<CapDraw<T>>;
+    {
+        K::pdf(cap, n, cos_theta)
+        } -> std::same_as<T>;
 };
 
 /// A technique that draws over the hemisphere of the shading frame: sample and pdf are a pair.
 template <class K, class B, class T>
-concept DirectionTechnique = requires(const B& bsdf, const Vec3<T>& w, const T& lobe, const Vec2<T>& u, const T& pdf) {
-    { K::name } -> std::convertible_to<std::string_view>;
-    { K::sample(bsdf, w, lobe, u) } -> std::same_as<Vec3<T>>;
-    { K::pdf(pdf, w) } -> std::same_as<T>;
-    { K::draws(bsdf) } -> std::same_as<bool>;
+concept DirectionTechnique = requires(const B& bsdf, const Vec3<T>& w, const T& lobe,
+                                      const Vec2<T>& u, const T& pdf)
+{
+    {
+        K::name
+        } -> std::convertible_to<std::string_view>;
+    {
+        K::sample(bsdf, w, lobe, u)
+        } -> std::same_as<Vec3<T>>;
+    {
+        K::pdf(pdf, w)
+        } -> std::same_as<T>;
+    {
+        K::draws(bsdf)
+        } -> std::same_as<bool>;
 };
 
 }  // namespace mis

@@ -4,10 +4,12 @@
 
 namespace mis {
 
-/// The cone's draw, seen as one technique over the union of the caps: the lecture's "union of the directions".
+/// The cone's draw, seen as one technique over the union of the caps: the lecture's "union of the
+/// directions".
 struct UnionTechnique : ConeTechnique {
     static constexpr std::string_view name = "union";
-    static constexpr std::string_view summary = "the cone's draw, priced over all lights along the direction";
+    static constexpr std::string_view summary =
+        "the cone's draw, priced over all lights along the direction";
     static constexpr bool sums_lights = true;
 };
 static_assert(LightTechnique<UnionTechnique, float>);

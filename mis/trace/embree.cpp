@@ -33,18 +33,21 @@ void sphere_bounds(const RTCBoundsFunctionArguments* args)
 {
     const PlacedSphere& s = placed(args->geometryUserPtr, args->primID);
     const double reach = s.radius + float_offset(s.radius + largest_coordinate(s.center));
-    const Vec3<float> low = vec_cast<float>(s.center - reach), high = vec_cast<float>(s.center + reach);
+    const Vec3<float> low = vec_cast<float>(s.center - reach),
+                      high = vec_cast<float>(s.center + reach);
     *args->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
 }
 
 /// Where ray i of a packet meets a sphere within its interval, or infinity.
 float sphere_distance(RTCRayN* ray, unsigned count, unsigned i, const PlacedSphere& s)
 {
-    const Vec3<double> origin{RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i), RTCRayN_org_z(ray, count, i)};
+    const Vec3<double> origin{RTCRayN_org_x(ray, count, i), RTCRayN_org_y(ray, count, i),
+                              RTCRayN_org_z(ray, count, i)};
     const Vec3<double> direction{RTCRayN_dir_x(ray, count, i), RTCRayN_dir_y(ray, count, i),
                                  RTCRayN_dir_z(ray, count, i)};
     const auto distance = static_cast<float>(hit_sphere(origin, direction, s.center, s.radius));
-    const bool within = distance > RTCRayN_tnear(ray, count, i) && distance < RTCRayN_tfar(ray, count, i);
+    const bool within =
+        distance > RTCRayN_tnear(ray, count, i) && distance < RTCRayN_tfar(ray, count, i);
     return within ? distance : std::numeric_limits<float>::infinity();
 }
 
@@ -52,7 +55,8 @@ void sphere_occluded(const RTCOccludedFunctionNArguments* args)
 {
     const PlacedSphere& s = placed(args->geometryUserPtr, args->primID);
     for (unsigned i = 0; i < args->N; ++i)
-        if (args->valid[i] != 0 && sphere_distance(args->ray, args->N, i, s) < std::numeric_limits<float>::infinity())
+        if (args->valid[i] != 0 &&
+            sphere_distance(args->ray, args->N, i, s) < std::numeric_limits<float>::infinity())
             RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
 }
 
@@ -84,10 +88,12 @@ RTCRay ray_of(const Vec3<float>& origin, const Vec3<float>& direction, float far
 
 /// New storage of a geometry's buffer, to be filled.
 template <class N>
-N* buffer_of(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t per_item, std::size_t items)
+N* buffer_of(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t per_item,
+             std::size_t items)
 {
     void* data = rtcSetNewGeometryBuffer(geometry, type, 0, format, per_item * sizeof(N), items);
-    if (data == nullptr) throw std::runtime_error("Embree has no memory for the surfaces of the scene");
+    if (data == nullptr)
+        throw std::runtime_error("Embree has no memory for the surfaces of the scene");
     return static_cast<N*>(data);
 }
 
@@ -98,7 +104,9 @@ struct EmbreeTracer::Trees {
     explicit Trees(const Scene& s) : scene(s), origin(frame_origin_of(s))
     {
         device = rtcNewDevice(nullptr);
-        if (device == nullptr) throw std::runtime_error("Embree does not start: error " + std::to_string(rtcGetDeviceError(nullptr)));
+        if (device == nullptr)
+            throw std::runtime_error("Embree does not start: error " +
+                                     std::to_string(rtcGetDeviceError(nullptr)));
         tree = rtcNewScene(device);
         rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
         try {
@@ -110,7 +118,8 @@ struct EmbreeTracer::Trees {
         rtcCommitScene(tree);
         if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
             release();
-            throw std::runtime_error("Embree could not build a tree over the surfaces of the scene");
+            throw std::runtime_error(
+                "Embree could not build a tree over the surfaces of the scene");
         }
     }
     ~Trees() { release(); }
@@ -146,9 +155,11 @@ struct EmbreeTracer::Trees {
     void add_mesh(const Mesh& mesh, std::size_t surface)
     {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3, mesh.positions.size());
+        auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3,
+                                          mesh.positions.size());
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) put(vertices, i, mesh.positions[i]);
-        auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3, mesh.triangles.size());
+        auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3,
+                                            mesh.triangles.size());
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i][k];
         attach(geometry, {surface});
@@ -157,15 +168,18 @@ struct EmbreeTracer::Trees {
     void add_quads(std::vector<std::size_t> surfaces)
     {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-        auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3, 4 * surfaces.size());
-        auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, 4, surfaces.size());
+        auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3,
+                                          4 * surfaces.size());
+        auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, 4,
+                                            surfaces.size());
         for (std::size_t q = 0; q < surfaces.size(); ++q) {
             const Quad& quad = std::get<Quad>(scene.surfaces[surfaces[q]].shape);
             put(vertices, 4 * q, quad.corner);
             put(vertices, 4 * q + 1, quad.corner + quad.edges[0]);
             put(vertices, 4 * q + 2, quad.corner + quad.edges[0] + quad.edges[1]);
             put(vertices, 4 * q + 3, quad.corner + quad.edges[1]);
-            for (std::size_t k = 0; k < 4; ++k) indices[4 * q + k] = static_cast<unsigned>(4 * q + k);
+            for (std::size_t k = 0; k < 4; ++k)
+                indices[4 * q + k] = static_cast<unsigned>(4 * q + k);
         }
         attach(geometry, std::move(surfaces));
     }
@@ -175,7 +189,8 @@ struct EmbreeTracer::Trees {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
         rtcSetGeometryUserData(geometry, &spheres);
-        rtcSetGeometryBoundsFunction(geometry, [](const RTCBoundsFunctionArguments* a) { sphere_bounds(a); }, nullptr);
+        rtcSetGeometryBoundsFunction(
+            geometry, [](const RTCBoundsFunctionArguments* a) { sphere_bounds(a); }, nullptr);
         rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
         rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
         std::vector<std::size_t> surfaces;
@@ -196,7 +211,8 @@ struct EmbreeTracer::Trees {
     {
         const std::vector<std::size_t>& surfaces = surfaces_of[geometry];
         const bool is_mesh = std::holds_alternative<Mesh>(scene.surfaces[surfaces[0]].shape);
-        return is_mesh ? SurfaceLocation{surfaces[0], primitive} : SurfaceLocation{surfaces[primitive], 0};
+        return is_mesh ? SurfaceLocation{surfaces[0], primitive}
+                       : SurfaceLocation{surfaces[primitive], 0};
     }
 
     const Scene& scene;
@@ -225,13 +241,15 @@ void EmbreeTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint
 #else
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
-        rtcOccluded1M(trees_->tree, &context, batch.data(), static_cast<unsigned>(count), sizeof(RTCRay));
+        rtcOccluded1M(trees_->tree, &context, batch.data(), static_cast<unsigned>(count),
+                      sizeof(RTCRay));
 #endif
         for (std::size_t i = 0; i < count; ++i) hidden[first + i] = batch[i].tfar < 0 ? 1 : 0;
     }
 }
 
-std::optional<SurfaceHit> EmbreeTracer::first_hit(const Vec3<double>& origin, const Vec3<double>& direction) const
+std::optional<SurfaceHit> EmbreeTracer::first_hit(const Vec3<double>& origin,
+                                                  const Vec3<double>& direction) const
 {
     RTCRayHit ray{};
     ray.ray = ray_of(vec_cast<float>(origin - trees_->origin), vec_cast<float>(direction),
@@ -245,7 +263,8 @@ std::optional<SurfaceHit> EmbreeTracer::first_hit(const Vec3<double>& origin, co
     rtcIntersect1(trees_->tree, &context, &ray);
 #endif
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return hit_at(trees_->scene, trees_->location(ray.hit.geomID, ray.hit.primID), origin, direction, trees_->origin);
+    return hit_at(trees_->scene, trees_->location(ray.hit.geomID, ray.hit.primID), origin,
+                  direction, trees_->origin);
 }
 
 Vec3<double> EmbreeTracer::origin() const { return trees_->origin; }

@@ -7,17 +7,18 @@
 
 namespace mis {
 
-/// The surfaces of a scene in Embree's trees (3.13 or 4); lights are not among them. Owns device and scene; keeps a
-/// reference to the scene. Triangles and quads are intersected by Embree in float, relative to the middle of the
-/// surfaces; spheres in double. What a camera ray hits is computed again in double.
-/// Throws std::runtime_error where Embree fails (no memory).
+/// The surfaces of a scene in Embree's trees (3.13 or 4); lights are not among them. Owns device
+/// and scene; keeps a reference to the scene. Triangles and quads are intersected by Embree in
+/// float, relative to the middle of the surfaces; spheres in double. What a camera ray hits is
+/// computed again in double. Throws std::runtime_error where Embree fails (no memory).
 class EmbreeTracer final : public SurfaceTracer {
 public:
     explicit EmbreeTracer(const Scene& scene);
     ~EmbreeTracer() override;
 
     void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const override;
-    std::optional<SurfaceHit> first_hit(const Vec3<double>& origin, const Vec3<double>& direction) const override;
+    std::optional<SurfaceHit> first_hit(const Vec3<double>& origin,
+                                        const Vec3<double>& direction) const override;
     Vec3<double> origin() const override;
     double offset_at(const Vec3<double>& x) const override;
 

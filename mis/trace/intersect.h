@@ -9,7 +9,8 @@
 
 namespace mis {
 
-// Where does a ray meet one surface? In double, closed form; distances are along the unit direction, infinity is a miss.
+// Where does a ray meet one surface? In double, closed form; distances are along the unit
+// direction, infinity is a miss.
 
 inline constexpr double no_hit = std::numeric_limits<double>::infinity();
 
@@ -19,8 +20,9 @@ struct PlaneHit {
 };
 
 /// The plane of corner, e1 and e2. Source: Möller and Trumbore 1997.
-inline PlaneHit hit_plane(const Vec3<double>& origin, const Vec3<double>& direction, const Vec3<double>& corner,
-                          const Vec3<double>& e1, const Vec3<double>& e2)
+inline PlaneHit hit_plane(const Vec3<double>& origin, const Vec3<double>& direction,
+                          const Vec3<double>& corner, const Vec3<double>& e1,
+                          const Vec3<double>& e2)
 {
     const Vec3<double> p = cross(direction, e2);
     const double determinant = dot(e1, p);
@@ -30,25 +32,26 @@ inline PlaneHit hit_plane(const Vec3<double>& origin, const Vec3<double>& direct
     return {dot(e2, q) / determinant, dot(s, p) / determinant, dot(direction, q) / determinant};
 }
 
-inline PlaneHit hit_triangle(const Vec3<double>& origin, const Vec3<double>& direction, const Vec3<double>& a,
-                             const Vec3<double>& b, const Vec3<double>& c)
+inline PlaneHit hit_triangle(const Vec3<double>& origin, const Vec3<double>& direction,
+                             const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c)
 {
     const PlaneHit hit = hit_plane(origin, direction, a, b - a, c - a);
     const bool inside = hit.u >= 0 && hit.v >= 0 && hit.u + hit.v <= 1;
     return inside && hit.distance > 0 ? hit : PlaneHit{};
 }
 
-inline PlaneHit hit_quad(const Vec3<double>& origin, const Vec3<double>& direction, const Quad& quad)
+inline PlaneHit hit_quad(const Vec3<double>& origin, const Vec3<double>& direction,
+                         const Quad& quad)
 {
     const PlaneHit hit = hit_plane(origin, direction, quad.corner, quad.edges[0], quad.edges[1]);
     const bool inside = hit.u >= 0 && hit.v >= 0 && hit.u <= 1 && hit.v <= 1;
     return inside && hit.distance > 0 ? hit : PlaneHit{};
 }
 
-/// The nearer side of a sphere in front of the origin, which may be inside. The two distances have the product
-/// d² − r² and half-sum `along`, so the one that cancels is had from the other.
-inline double hit_sphere(const Vec3<double>& origin, const Vec3<double>& direction, const Vec3<double>& center,
-                         double radius)
+/// The nearer side of a sphere in front of the origin, which may be inside. The two distances have
+/// the product d² − r² and half-sum `along`, so the one that cancels is had from the other.
+inline double hit_sphere(const Vec3<double>& origin, const Vec3<double>& direction,
+                         const Vec3<double>& center, double radius)
 {
     const Vec3<double> to_center = center - origin;
     const double along = dot(to_center, direction), q = length(cross(to_center, direction));
@@ -60,7 +63,8 @@ inline double hit_sphere(const Vec3<double>& origin, const Vec3<double>& directi
     return near > 0 ? near : far > 0 ? far : no_hit;
 }
 
-/// Room for the rounding of float coordinates up to `largest`: of the ray's origin and of the surface itself.
+/// Room for the rounding of float coordinates up to `largest`: of the ray's origin and of the
+/// surface itself.
 inline double float_offset(double largest) { return largest * 0x1p-20; }
 
 inline double largest_coordinate(const Vec3<double>& v)

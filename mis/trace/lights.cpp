@@ -10,7 +10,8 @@ constexpr std::uint32_t leaf_size = 4;
 constexpr int bins = 16;
 
 struct Box {
-    Vec3<double> low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+    Vec3<double> low{std::numeric_limits<double>::infinity()},
+        high{-std::numeric_limits<double>::infinity()};
     void add(const Vec3<double>& p) { low = glm::min(low, p), high = glm::max(high, p); }
     void add(const Box& b) { low = glm::min(low, b.low), high = glm::max(high, b.high); }
     double half_area() const
@@ -21,8 +22,14 @@ struct Box {
 };
 
 /// The widest float box around a double one: two roundings outwards, for the box and for a radius.
-float rounded_down(double x) { return std::nextafter(std::nextafter(static_cast<float>(x), -3e38F), -3e38F); }
-float rounded_up(double x) { return std::nextafter(std::nextafter(static_cast<float>(x), 3e38F), 3e38F); }
+float rounded_down(double x)
+{
+    return std::nextafter(std::nextafter(static_cast<float>(x), -3e38F), -3e38F);
+}
+float rounded_up(double x)
+{
+    return std::nextafter(std::nextafter(static_cast<float>(x), 3e38F), 3e38F);
+}
 
 /// The middle of the lights' centres, by median, so that a far sun does not move it.
 Vec3<double> middle_of(const Lights& lights)
@@ -55,7 +62,10 @@ struct LightHierarchy::Builder {
         }
         return box;
     }
-    const Light& light_at(std::uint32_t i) const { return (*tree.lights_)[static_cast<std::size_t>(tree.order_[i])]; }
+    const Light& light_at(std::uint32_t i) const
+    {
+        return (*tree.lights_)[static_cast<std::size_t>(tree.order_[i])];
+    }
 
     void build(std::uint32_t first, std::uint32_t end, int depth)
     {
@@ -76,13 +86,15 @@ struct LightHierarchy::Builder {
         build(middle, end, depth + 1);
     }
 
-    /// Orders the range in two and gives the border. Deep down it halves, so that depth stays below the walk's stack.
+    /// Orders the range in two and gives the border. Deep down it halves, so that depth stays below
+    /// the walk's stack.
     std::uint32_t split(std::uint32_t first, std::uint32_t end, int depth)
     {
         Box centers;
         for (std::uint32_t i = first; i < end; ++i) centers.add(light_at(i).center);
         const Vec3<double> extent = centers.high - centers.low;
-        const int axis = extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+        const int axis =
+            extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
         const auto begin_it = tree.order_.begin() + first, end_it = tree.order_.begin() + end;
         if (extent[axis] > 0 && depth < 24) {
             const double scale = bins / extent[axis] * (1 - 1e-9);
@@ -104,7 +116,8 @@ struct LightHierarchy::Builder {
         return static_cast<std::uint32_t>(half - tree.order_.begin());
     }
 
-    template <class BinOf> int best_border(std::uint32_t first, std::uint32_t end, const BinOf& bin_of) const
+    template <class BinOf>
+    int best_border(std::uint32_t first, std::uint32_t end, const BinOf& bin_of) const
     {
         std::array<Box, bins> box;
         std::array<std::uint32_t, bins> count{};
@@ -177,7 +190,9 @@ LightHit LightHierarchy::nearest(const Vec3<double>& x, const Vec3<double>& wi) 
 {
     LightHit best;
     walk(x, wi, best.distance, [&](const LightHit& hit) {
-        if (hit.distance < best.distance || (hit.distance == best.distance && hit.light < best.light)) best = hit;
+        if (hit.distance < best.distance ||
+            (hit.distance == best.distance && hit.light < best.light))
+            best = hit;
         return best.distance;
     });
     return best;

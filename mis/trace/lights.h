@@ -12,15 +12,17 @@
 
 namespace mis {
 
-/// The light that a direction meets, and how far; light is no_light and distance infinity where it meets none.
+/// The light that a direction meets, and how far; light is no_light and distance infinity where it
+/// meets none.
 struct LightHit {
     LightIndex light = no_light;
     double distance = std::numeric_limits<double>::infinity();
 };
 
-/// Which light does a direction meet first, and whose caps hold it? A bounding volume hierarchy over the spheres,
-/// which never enter the surfaces' tree. Boxes are float and wide enough for every rounding; what they let through is
-/// tested in double, so the answers are those of a loop over all lights. Directions are unit vectors.
+/// Which light does a direction meet first, and whose caps hold it? A bounding volume hierarchy
+/// over the spheres, which never enter the surfaces' tree. Boxes are float and wide enough for
+/// every rounding; what they let through is tested in double, so the answers are those of a loop
+/// over all lights. Directions are unit vectors.
 class LightHierarchy {
 public:
     /// Keeps a reference to the lights.
@@ -29,14 +31,16 @@ public:
     /// Is x inside a light or on it?
     bool contains(const Vec3<double>& x) const;
 
-    /// The nearest light along wi from x, which lies outside all lights; at equal distance the one listed first.
+    /// The nearest light along wi from x, which lies outside all lights; at equal distance the one
+    /// listed first.
     LightHit nearest(const Vec3<double>& x, const Vec3<double>& wi) const;
 
     /// Does another light than `light`, which is met at `distance`, stand before it?
     bool hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit) const;
 
     /// visit(LightHit) for every light along wi, hidden ones too, in no order.
-    template <class Visit> void for_each_along(const Vec3<double>& x, const Vec3<double>& wi, const Visit& visit) const
+    template <class Visit>
+    void for_each_along(const Vec3<double>& x, const Vec3<double>& wi, const Visit& visit) const
     {
         constexpr double everything = std::numeric_limits<double>::infinity();
         walk(x, wi, everything, [&](const LightHit& hit) {
@@ -45,17 +49,22 @@ public:
         });
     }
 
-    std::size_t bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(LightIndex); }
+    std::size_t bytes() const
+    {
+        return nodes_.size() * sizeof(Node) + order_.size() * sizeof(LightIndex);
+    }
 
 private:
     struct Node {
         std::array<float, 3> low, high;  ///< relative to origin_
-        std::uint32_t first;             ///< leaf: of order_; else the right child (the left one is the next node)
-        std::uint32_t count;             ///< of a leaf; 0 for an inner node
+        std::uint32_t
+            first;  ///< leaf: of order_; else the right child (the left one is the next node)
+        std::uint32_t count;  ///< of a leaf; 0 for an inner node
     };
     struct Builder;
 
-    /// meet(hit) for the lights along wi up to `limit`; it returns the distance beyond which nothing is of interest.
+    /// meet(hit) for the lights along wi up to `limit`; it returns the distance beyond which
+    /// nothing is of interest.
     template <class Meet>
     void walk(const Vec3<double>& x, const Vec3<double>& wi, double limit, const Meet& meet) const;
 
@@ -78,7 +87,8 @@ public:
             inverse_[a] = 1 / (std::abs(d) > 1e-30F ? d : std::copysign(1e-30F, d));
         }
     }
-    MIS_INLINE bool meets(const std::array<float, 3>& low, const std::array<float, 3>& high, float limit) const
+    MIS_INLINE bool meets(const std::array<float, 3>& low, const std::array<float, 3>& high,
+                          float limit) const
     {
         float near = 0, far = limit;
         for (std::size_t a = 0; a < 3; ++a) {
@@ -95,7 +105,8 @@ private:
 };
 
 template <class Meet>
-void LightHierarchy::walk(const Vec3<double>& x, const Vec3<double>& wi, double limit, const Meet& meet) const
+void LightHierarchy::walk(const Vec3<double>& x, const Vec3<double>& wi, double limit,
+                          const Meet& meet) const
 {
     if (nodes_.empty()) return;
     const BoxRay ray(x - origin_, wi);

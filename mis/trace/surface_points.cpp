@@ -15,7 +15,8 @@ struct Plane {
 Plane plane_of(const std::array<Vec3<double>, 3>& p, const Vec3<double>& frame_origin)
 {
     double largest = 0;
-    for (const Vec3<double>& corner : p) largest = std::max(largest, largest_coordinate(corner - frame_origin));
+    for (const Vec3<double>& corner : p)
+        largest = std::max(largest, largest_coordinate(corner - frame_origin));
     return {p[0], p[1] - p[0], p[2] - p[0], largest};
 }
 
@@ -33,20 +34,22 @@ std::array<Vec3<double>, 3> corners(const Mesh& mesh, std::uint32_t triangle)
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-SurfaceHit facing(const Vec3<double>& x, Vec3<double> geometric, Vec3<double> n, double distance, double offset,
-                  const Vec3<double>& direction, int material)
+SurfaceHit facing(const Vec3<double>& x, Vec3<double> geometric, Vec3<double> n, double distance,
+                  double offset, const Vec3<double>& direction, int material)
 {
     if (dot(geometric, direction) > 0) geometric = -geometric;
     if (dot(n, geometric) < 0) n = -n;
     return {x, geometric, n, distance, offset, material};
 }
 
-Vec3<double> smooth_normal(const Mesh& mesh, std::uint32_t triangle, const PlaneHit& hit, const Vec3<double>& flat)
+Vec3<double> smooth_normal(const Mesh& mesh, std::uint32_t triangle, const PlaneHit& hit,
+                           const Vec3<double>& flat)
 {
     if (mesh.normals.empty()) return flat;
     const auto& t = mesh.triangles[triangle];
     const Vec3<double> n = vec_cast<double>(mesh.normals[t[0]]) * (1 - hit.u - hit.v) +
-                           vec_cast<double>(mesh.normals[t[1]]) * hit.u + vec_cast<double>(mesh.normals[t[2]]) * hit.v;
+                           vec_cast<double>(mesh.normals[t[1]]) * hit.u +
+                           vec_cast<double>(mesh.normals[t[2]]) * hit.v;
     return length2(n) > 0 ? normalized(n) : flat;
 }
 
@@ -57,13 +60,15 @@ bool lies_on(const Vec3<double>& x, const Plane& plane, bool is_triangle)
     if (!(std::abs(dot(x - plane.corner, unit)) <= tolerance)) return false;
     const PlaneHit at = hit_plane(x, -unit, plane.corner, plane.e1, plane.e2);
     const double slack = tolerance / std::min(length(plane.e1), length(plane.e2));
-    return at.u >= -slack && at.v >= -slack && (is_triangle ? at.u + at.v : std::max(at.u, at.v)) <= 1 + slack;
+    return at.u >= -slack && at.v >= -slack &&
+           (is_triangle ? at.u + at.v : std::max(at.u, at.v)) <= 1 + slack;
 }
 
 }  // namespace
 
-std::optional<SurfaceHit> hit_at(const Scene& scene, const SurfaceLocation& location, const Vec3<double>& origin,
-                                 const Vec3<double>& direction, const Vec3<double>& frame_origin)
+std::optional<SurfaceHit> hit_at(const Scene& scene, const SurfaceLocation& location,
+                                 const Vec3<double>& origin, const Vec3<double>& direction,
+                                 const Vec3<double>& frame_origin)
 {
     const Surface& surface = scene.surfaces[location.surface];
     if (const auto* sphere = std::get_if<SphereSurface>(&surface.shape)) {
@@ -80,9 +85,11 @@ std::optional<SurfaceHit> hit_at(const Scene& scene, const SurfaceLocation& loca
     const PlaneHit hit = hit_plane(origin, direction, plane.corner, plane.e1, plane.e2);
     if (!(hit.distance > 0 && hit.distance < no_hit)) return std::nullopt;
     const Vec3<double> flat = normalized(cross(plane.e1, plane.e2));
-    const Vec3<double> n = mesh != nullptr ? smooth_normal(*mesh, location.triangle, hit, flat) : flat;
+    const Vec3<double> n =
+        mesh != nullptr ? smooth_normal(*mesh, location.triangle, hit, flat) : flat;
     const Vec3<double> x = plane.corner + plane.e1 * hit.u + plane.e2 * hit.v;
-    return facing(x, flat, n, hit.distance, float_offset(plane.largest), direction, surface.material);
+    return facing(x, flat, n, hit.distance, float_offset(plane.largest), direction,
+                  surface.material);
 }
 
 double offset_of_point(const Scene& scene, const Vec3<double>& x, const Vec3<double>& frame_origin)
@@ -93,7 +100,8 @@ double offset_of_point(const Scene& scene, const Vec3<double>& x, const Vec3<dou
         if (own > offset && lies_on(x, plane, is_triangle)) offset = own;
     };
     for (const Surface& surface : scene.surfaces) {
-        if (const auto* quad = std::get_if<Quad>(&surface.shape)) consider(plane_of(*quad, frame_origin), false);
+        if (const auto* quad = std::get_if<Quad>(&surface.shape))
+            consider(plane_of(*quad, frame_origin), false);
         if (const auto* mesh = std::get_if<Mesh>(&surface.shape))
             for (std::uint32_t t = 0; t < mesh->triangles.size(); ++t)
                 consider(plane_of(corners(*mesh, t), frame_origin), true);

@@ -14,13 +14,15 @@ struct SurfaceLocation {
     std::uint32_t triangle = 0;
 };
 
-/// The hit of a ray with the surface at `location`, in double, with normals turned to the ray's origin. Nothing where
-/// the ray misses its plane or sphere altogether; beyond an edge, by rounding, the plane counts.
-/// frame_origin: SurfaceTracer::origin().
-std::optional<SurfaceHit> hit_at(const Scene& scene, const SurfaceLocation& location, const Vec3<double>& origin,
-                                 const Vec3<double>& direction, const Vec3<double>& frame_origin);
+/// The hit of a ray with the surface at `location`, in double, with normals turned to the ray's
+/// origin. Nothing where the ray misses its plane or sphere altogether; beyond an edge, by
+/// rounding, the plane counts. frame_origin: SurfaceTracer::origin().
+std::optional<SurfaceHit> hit_at(const Scene& scene, const SurfaceLocation& location,
+                                 const Vec3<double>& origin, const Vec3<double>& direction,
+                                 const Vec3<double>& frame_origin);
 
-/// SurfaceHit::offset of the surface that x lies on, to rounding, or of the point itself where it lies on none.
+/// SurfaceHit::offset of the surface that x lies on, to rounding, or of the point itself where it
+/// lies on none.
 double offset_of_point(const Scene& scene, const Vec3<double>& x, const Vec3<double>& frame_origin);
 
 /// Where floats are best measured from: what the camera looks at, or the first probe.

@@ -22,7 +22,8 @@ struct SurfaceHit {
     Vec3<double> geometric;  ///< unit normal of the surface, towards the ray's origin
     Vec3<double> n;          ///< unit shading normal, on the same side
     double distance;         ///< along the ray
-    double offset;           ///< how far a ray that starts at x must be moved off this surface to miss it; scene units
+    double offset;  ///< how far a ray that starts at x must be moved off this surface to miss it;
+                    ///< scene units
     int material;
 };
 
@@ -32,12 +33,15 @@ public:
     virtual ~SurfaceTracer() = default;
 
     /// hidden[i] = 1 where something lies on ray i strictly before its distance, else 0.
-    virtual void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const = 0;
+    virtual void occluded(std::span<const ShadowRay> rays,
+                          std::span<std::uint8_t> hidden) const = 0;
 
     /// The nearest surface along a ray, or nothing. direction: unit.
-    virtual std::optional<SurfaceHit> first_hit(const Vec3<double>& origin, const Vec3<double>& direction) const = 0;
+    virtual std::optional<SurfaceHit> first_hit(const Vec3<double>& origin,
+                                                const Vec3<double>& direction) const = 0;
 
-    /// The point of the scene that shadow rays' origins are measured from: near the surfaces, so that floats are fine.
+    /// The point of the scene that shadow rays' origins are measured from: near the surfaces, so
+    /// that floats are fine.
     virtual Vec3<double> origin() const = 0;
 
     /// SurfaceHit::offset for a point that no ray found: of the surface it lies on, if on any.

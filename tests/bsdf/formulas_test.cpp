@@ -1,4 +1,5 @@
-// Each BSDF against its formula as the textbooks write it, in double and away from where that loses digits.
+// Each BSDF against its formula as the textbooks write it, in double and away from where that loses
+// digits.
 #include "mis/bsdf/blinn.h"
 #include "mis/bsdf/ggx.h"
 #include "mis/bsdf/lambert.h"
@@ -40,7 +41,8 @@ TEST(Lecture, IsKdPlusKsCosToTheM)
 {
     constexpr double m = 30;
     const Lecture bsdf({.diffuse = kd, .specular = ks, .exponent = m});
-    const double a_d = pi_ * luminance(kd), a_s = luminance(ks) * 8 * pi_ / (m + 8), s = a_s / (a_d + a_s);
+    const double a_d = pi_ * luminance(kd), a_s = luminance(ks) * 8 * pi_ / (m + 8),
+                 s = a_s / (a_d + a_s);
     for_each_pair([&](const auto& wo, const auto& wi, double n_h, double o_h) {
         const BsdfValue<double> value = bsdf.evaluate(wo, wi);
         EXPECT_NEAR(length(value.f - (kd + ks * std::pow(n_h, m))), 0, 1e-12);
@@ -56,7 +58,8 @@ TEST(Blinn, IsKdOverPiPlusTheNormalisedLobe)
     const double s = luminance(ks) / (luminance(kd) + luminance(ks));
     for_each_pair([&](const auto& wo, const auto& wi, double n_h, double o_h) {
         const BsdfValue<double> value = bsdf.evaluate(wo, wi);
-        EXPECT_NEAR(length(value.f - (kd / pi_ + ks * ((m + 8) / (8 * pi_) * std::pow(n_h, m)))), 0, 1e-12);
+        EXPECT_NEAR(length(value.f - (kd / pi_ + ks * ((m + 8) / (8 * pi_) * std::pow(n_h, m)))), 0,
+                    1e-12);
         const double spec = (m + 1) / (2 * pi_) * std::pow(n_h, m) / (4 * o_h);
         EXPECT_NEAR(value.pdf, (1 - s) * wi.z / pi_ + s * spec, 1e-11);
     });
@@ -76,7 +79,8 @@ TEST(Ggx, IsDTimesG2TimesFOverTheCosines)
         const double s = luminance(ks) / (luminance(kd) + luminance(ks)), a2 = alpha * alpha;
         for_each_pair([&](const auto& wo, const auto& wi, double n_h, double o_h) {
             const double t = n_h * n_h * (a2 - 1) + 1, d = a2 / (pi_ * t * t);
-            const double g2 = 1 / (1 + lambda(wo.z, alpha) + lambda(wi.z, alpha)), g1 = 1 / (1 + lambda(wo.z, alpha));
+            const double g2 = 1 / (1 + lambda(wo.z, alpha) + lambda(wi.z, alpha)),
+                         g1 = 1 / (1 + lambda(wo.z, alpha));
             const Vec3<double> fresnel = ks + (Vec3<double>(1) - ks) * std::pow(1 - o_h, 5);
             const Vec3<double> f = kd / pi_ + fresnel * (d * g2 / (4 * wo.z * wi.z));
             const BsdfValue<double> value = bsdf.evaluate(wo, wi);

@@ -29,7 +29,7 @@ TEST(Resolved, IsNotAVarianceThatSomeTensOfSamplesCarry)
     const StrategyMeasurements some = simulate("a", rare_samples(1e-3)),
                                many = simulate("b", rare_samples(1e-1));
     ASSERT_LT(some.pooled.participation.number(), 100);
-    EXPECT_NE(why_not_resolved(some).find("carried by about"), std::string::npos);
+    EXPECT_NE(why_not_resolved(some).find("its variance is carried by about"), std::string::npos);
     EXPECT_TRUE(is_resolved(many));
 }
 
@@ -87,6 +87,22 @@ TEST(Resolved, IsNotWhatTheOthersSamplesSayIsMissingASignificantPart)
     EXPECT_TRUE(is_resolved(audited(0.4, 0.15)));    // too unsure to accuse
     EXPECT_TRUE(is_resolved(audited(0.11, 0.001)));  // sure, but no significant part
     EXPECT_TRUE(is_resolved(audited(0.02, 0.001)));  // less than measured is no accusation
+}
+
+TEST(Resolved, IsNotWhatTheOthersSamplesFindInDarkPlaces)
+{
+    StrategyMeasurements s = audited(0.1, 0.001);
+    s.audit.relative_available = true;
+    s.audit.own_relative_variance = 5;
+    s.audit.own_relative_variance_se = 0.5;
+    s.audit.relative_variance_from_others = 6;
+    s.audit.relative_variance_from_others_se = 1;
+    EXPECT_TRUE(is_resolved(s));
+    s.audit.relative_variance_from_others = 60;
+    s.audit.relative_variance_from_others_se = 9;
+    EXPECT_NE(why_not_resolved(s).find("a relative variance of at least 33 where its own saw 5"),
+              std::string::npos)
+        << why_not_resolved(s);
 }
 
 TEST(Resolved, IsNotAnExactOneThatTheOthersSamplesRefute)

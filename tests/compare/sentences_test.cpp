@@ -17,6 +17,7 @@ SceneReport scene_of(std::vector<StrategyMeasurements> strategies)
     scene.strategies = std::move(ranking.strategies);
     scene.pairs = std::move(ranking.pairs);
     scene.settled = ranking.settled;
+    scene.replicates = ranking.replicates;
     return scene;
 }
 
@@ -39,19 +40,34 @@ TEST(Sentences, BeginWithWhatToUseAndWhatItSaves)
                                         simulate("solid-angle", uniform_samples(0.02)),
                                         simulate("other", uniform_samples(0.2))});
     const auto sentences = sentences_of(scene, 2, 0.02);
-    EXPECT_EQ(sentences[0].find("Use solid-angle/power: it reaches 1 % error 1"), 0u)
+    EXPECT_EQ(sentences[0].find("Use solid-angle/power: it reaches 1 % error 9.8"), 0u)
         << sentences[0];
     EXPECT_NE(sentences[0].find("times sooner than uniform/power"), std::string::npos);
     EXPECT_NE(sentences[0].find("on 2 threads)."), std::string::npos);
-    expect_said(all_of(scene), "It is sure to lead in efficiency");
+    expect_said(all_of(scene), "It is sure to lead in time to 1 % error");
 }
 
-TEST(Sentences, CompareWithTheNextBestWhereNothingUsualRan)
+TEST(Sentences, CompareWithTheNextBestAndWithWhatIsUsual)
 {
-    expect_said(
-        all_of(scene_of({simulate("a", uniform_samples(0.1)), simulate("b", uniform_samples(0.3)),
-                         simulate("c", uniform_samples(0.9))})),
-        "times sooner than b/power");
+    const std::string text = sentences_of(
+        scene_of({simulate("a", uniform_samples(0.1)), simulate("b", uniform_samples(0.3)),
+                  simulate("c", uniform_samples(0.6)), simulate("uniform", uniform_samples(0.9))}),
+        2, 0.02)[0];
+    expect_said(text, "times sooner than b/power and ");
+    expect_said(text, "times sooner than uniform/power (in ");
+    EXPECT_EQ(text.find("c/power"), std::string::npos);
+}
+
+TEST(Sentences, SayWhereEfficiencyAndTimeToOnePercentDisagree)
+{
+    // a is noisy where it is bright, b where it is dark.
+    StrategyMeasurements a = simulate("a", uniform_samples(0.4)),
+                         b = simulate("b", uniform_samples(0.1));
+    for (ReplicateValues& r : b.replicates) r.relative_variance *= 20;
+    b.pooled.relative_variance *= 20;
+    const std::string text = all_of(scene_of({a, b}));
+    expect_said(text, "Use a/power: it reaches 1 % error 5");
+    expect_said(text, "Where only bright places matter, use b/power: by plain variance it is 4");
 }
 
 TEST(Sentences, NameTiesAndTheUndecided)
@@ -61,7 +77,7 @@ TEST(Sentences, NameTiesAndTheUndecided)
     const std::string text = all_of(scene_of(
         {a, twin, simulate("b", uniform_samples(0.101)), simulate("c", uniform_samples(0.9))}));
     expect_said(text, "a/power and twin/power are tied in variance within 2 %");
-    expect_said(text, "more replicates would decide.");
+    expect_said(text, "times as many samples) would decide.");
 }
 
 TEST(Sentences, GiveTheReasonOfWhatIsExcluded)

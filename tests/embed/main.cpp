@@ -1,4 +1,5 @@
-// A renderer that is not ours: headers of mis on its include path, the core linked, nothing else of mis at hand.
+// A renderer that is not ours: headers of mis on its include path, the core linked, nothing else of
+// mis at hand.
 #include "mis/math/type_list.h"
 #include "mis/policy/registry.h"
 #include "mis/strategy/strategy.h"

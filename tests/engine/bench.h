@@ -19,13 +19,16 @@ inline std::vector<Strategy> every_strategy()
         } catch (const StrategyError&) {
         }
     };
-    for (const Choosable& technique : technique_names()) add_if_legal({"", "", technique.name, Model::multi, {0, 1}});
+    for (const Choosable& technique : technique_names())
+        add_if_legal({"", "", technique.name, Model::multi, {0, 1}});
     for (const Choosable& policy : policy_names())
         for (const Choosable& heuristic : heuristic_names())
             for (const Choosable& technique : technique_names())
                 for (const std::array<int, 2> counts : {std::array{1, 0}, {1, 1}, {3, 2}}) {
-                    add_if_legal({policy.name, heuristic.name, technique.name, Model::multi, counts});
-                    add_if_legal({policy.name, heuristic.name, technique.name, Model::one_sample, counts});
+                    add_if_legal(
+                        {policy.name, heuristic.name, technique.name, Model::multi, counts});
+                    add_if_legal(
+                        {policy.name, heuristic.name, technique.name, Model::one_sample, counts});
                 }
     return list;
 }
@@ -41,7 +44,8 @@ struct TestScene {
     {
     }
     TestScene(const Scene& s, const SurfaceTracer* surfaces, const Effects& effects)
-        : scene(s), lit(scene, surfaces, effects), probes(probe_points(scene, lit.lights(), surfaces))
+        : scene(s), lit(scene, surfaces, effects),
+          probes(probe_points(scene, lit.lights(), surfaces))
     {
     }
     TestScene(const TestScene&) = delete;
@@ -55,15 +59,16 @@ struct Outcome {
 
 /// Samples [0, samples) of a scene's first probe.
 template <class T>
-Outcome run_probe(const TestScene& test, const Strategy& strategy, const Kernels<T>& kernels, int samples,
-                  std::uint64_t seed = 1)
+Outcome run_probe(const TestScene& test, const Strategy& strategy, const Kernels<T>& kernels,
+                  int samples, std::uint64_t seed = 1)
 {
     const ReadyStrategy<T> ready(test.lit, strategy, kernels, seed);
     const Tile& tile = test.probes.tiles.at(0);
     Workspace<T> workspace;
     Outcome outcome;
-    outcome.totals = workspace.run(ready.job(tile, test.probes.points), ready.pipeline(tile.material),
-                                   {.chunk = samples, .chunks = 1}, std::span(&outcome.result, 1), {}, {});
+    outcome.totals =
+        workspace.run(ready.job(tile, test.probes.points), ready.pipeline(tile.material),
+                      {.chunk = samples, .chunks = 1}, std::span(&outcome.result, 1), {}, {});
     return outcome;
 }
 

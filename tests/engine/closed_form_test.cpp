@@ -1,5 +1,5 @@
-// One sphere of fixed power over a floor: Φ·cosθ/(4π d²) · albedo/π whatever its radius, by Gauss–Legendre nodes put
-// through the pipeline in place of random numbers.
+// One sphere of fixed power over a floor: Φ·cosθ/(4π d²) · albedo/π whatever its radius, by
+// Gauss–Legendre nodes put through the pipeline in place of random numbers.
 #include "tests/engine/bench.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,8 @@ template <class T> void node_numbers(const TileJob<T>&, Batch<T>& batch)
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i) {
         const std::uint64_t s = batch.sample_number[static_cast<std::size_t>(batch.slot[i])];
         batch.bits[i] = 0;
-        batch.u[i] = static_cast<T>(rule().node[s % side]), batch.v[i] = static_cast<T>(rule().node[s / side]);
+        batch.u[i] = static_cast<T>(rule().node[s % side]),
+        batch.v[i] = static_cast<T>(rule().node[s / side]);
     }
 }
 
@@ -30,7 +31,9 @@ template <class T> void node_numbers(const TileJob<T>&, Batch<T>& batch)
 template <class T> void node_weights(const TileJob<T>&, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
-        const std::uint64_t s = batch.sample_number[static_cast<std::size_t>(batch.slot[static_cast<std::size_t>(row)])];
+        const std::uint64_t s =
+            batch
+                .sample_number[static_cast<std::size_t>(batch.slot[static_cast<std::size_t>(row)])];
         const double weight = rule().weight[s % side] * rule().weight[s / side] * batch_capacity;
         batch.contribution.put(row, batch.contribution.at(row) * static_cast<T>(weight));
     }
@@ -50,14 +53,15 @@ constexpr double power = 7;
 
 template <class T> double by_nodes(double radius, const Kernels<T>& kernels)
 {
-    const TestScene test(probe_under({make_light_of_power(center, radius, Vec3<double>(power))}, grey_floor()));
+    const TestScene test(
+        probe_under({make_light_of_power(center, radius, Vec3<double>(power))}, grey_floor()));
     const ReadyStrategy<T> ready(test.lit, parse_strategy("uniform/light"), kernels, 1);
     const Tile& tile = test.probes.tiles.at(0);
     Workspace<T> workspace;
     PointResult result;
-    const TileTotals totals =
-        workspace.run(ready.job(tile, test.probes.points), with_nodes(ready.pipeline(tile.material)),
-                      {.chunk = batch_capacity, .chunks = 1}, std::span(&result, 1), {}, {});
+    const TileTotals totals = workspace.run(
+        ready.job(tile, test.probes.points), with_nodes(ready.pipeline(tile.material)),
+        {.chunk = batch_capacity, .chunks = 1}, std::span(&result, 1), {}, {});
     EXPECT_EQ(totals.invalid, 0U);
     return result.luminance.mean;
 }
@@ -66,13 +70,15 @@ template <class T> double by_nodes(double radius, const Kernels<T>& kernels)
 template <class T> void expect_closed_form(double tolerance)
 {
     const double d = length(center), cos_theta = center.y / d;
-    const double exact = power * cos_theta / (4 * std::numbers::pi * d * d) * 0.5 / std::numbers::pi;
+    const double exact =
+        power * cos_theta / (4 * std::numbers::pi * d * d) * 0.5 / std::numbers::pi;
     std::vector<double> radii{1e-20, 1e-12};
     for (double r = 1e-6; r < 1.0001; r *= std::sqrt(10.0)) radii.push_back(r);
     radii.push_back(1.9999);
     for (const std::string_view set : instruction_sets())
         for (const double radius : radii)
-            EXPECT_NEAR(by_nodes(radius, kernels_of<T>(set)) / exact, 1, tolerance) << set << ", radius " << radius;
+            EXPECT_NEAR(by_nodes(radius, kernels_of<T>(set)) / exact, 1, tolerance)
+                << set << ", radius " << radius;
 }
 
 TEST(OneSphere, OfAnyRadiusGivesTheClosedFormInDouble) { expect_closed_form<double>(2e-7); }

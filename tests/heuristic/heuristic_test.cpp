@@ -45,12 +45,15 @@ TYPED_TEST(EveryHeuristic, WeightsSumTo1ForDensitiesFrom1e38To1e38)
     Uniforms uniforms(1);
     for (int i = 0; i < 100'000; ++i) {
         const double a = uniforms.log_between(1e-38, 1e38);
-        const double b = i % 2 == 0 ? uniforms.log_between(1e-38, 1e38) : a * uniforms.between(0.05, 2);
+        const double b =
+            i % 2 == 0 ? uniforms.log_between(1e-38, 1e38) : a * uniforms.between(0.05, 2);
         const double c = uniforms.log_between(1e-38, 1e38);
         this->expect_shares(std::array{a, b});
         this->expect_shares(std::array{a, b, c});
-        this->expect_shares(std::array{static_cast<float>(a), static_cast<float>(std::min(b, 1e38))});
-        this->expect_shares(std::array{static_cast<float>(a), static_cast<float>(std::min(b, 1e38)), static_cast<float>(c)});
+        this->expect_shares(
+            std::array{static_cast<float>(a), static_cast<float>(std::min(b, 1e38))});
+        this->expect_shares(std::array{static_cast<float>(a), static_cast<float>(std::min(b, 1e38)),
+                                       static_cast<float>(c)});
     }
 }
 
@@ -78,7 +81,8 @@ TYPED_TEST(EveryHeuristic, DoesNotDependOnTheUnitOfTheDensities)
     Uniforms uniforms(2);
     for (int i = 0; i < 1000; ++i) {
         const double a = uniforms.log_between(1e-3, 1e3), b = uniforms.log_between(1e-3, 1e3);
-        const auto one = weights<TypeParam>(std::array{a, b}), scaled = weights<TypeParam>(std::array{a * 0x1p90, b * 0x1p90});
+        const auto one = weights<TypeParam>(std::array{a, b}),
+                   scaled = weights<TypeParam>(std::array{a * 0x1p90, b * 0x1p90});
         EXPECT_EQ(one, scaled);
     }
 }
@@ -98,7 +102,8 @@ TYPED_TEST(EveryHeuristic, LanesAgreeWithOneAtATime)
                                        lanes_from<V>([&](std::size_t i) { return d[i][1]; })};
         for (std::size_t k = 0; k < 2; ++k) {
             const V found = TypeParam::weight(density, k);
-            for (std::size_t i = 0; i < d.size(); ++i) EXPECT_EQ(lane(found, i), TypeParam::weight(d[i], k));
+            for (std::size_t i = 0; i < d.size(); ++i)
+                EXPECT_EQ(lane(found, i), TypeParam::weight(d[i], k));
         }
     }
 }
@@ -119,8 +124,8 @@ TEST(Heuristics, SayWhatVeachWrote)
     EXPECT_EQ(weights<SingleHeuristic>(Pair{1, 100}), (Pair{1, 0}));
 }
 
-/// Veach's theorem 9.2 for two techniques that draw once each, on ten points of equal measure: no weights have a variance
-/// below the balance heuristic's by more than (1 − ½) μ².
+/// Veach's theorem 9.2 for two techniques that draw once each, on ten points of equal measure: no
+/// weights have a variance below the balance heuristic's by more than (1 − ½) μ².
 TEST(Heuristics, NoneBeatsBalanceByMoreThanVeachsBound)
 {
     constexpr std::size_t n = 10;
@@ -151,10 +156,18 @@ TEST(Heuristics, NoneBeatsBalanceByMoreThanVeachsBound)
         std::array<double, n> any{};
         for (double& v : any) v = uniforms();
         const double bound = 0.5 * mean * mean;
-        const auto balance = [](const Pair& d, std::size_t i, std::size_t) { return BalanceHeuristic::weight(d, i); };
-        const auto power = [](const Pair& d, std::size_t i, std::size_t) { return PowerHeuristic::weight(d, i); };
-        const auto maximum = [](const Pair& d, std::size_t i, std::size_t) { return MaximumHeuristic::weight(d, i); };
-        const auto random = [&](const Pair&, std::size_t i, std::size_t k) { return i == 0 ? any[k] : 1 - any[k]; };
+        const auto balance = [](const Pair& d, std::size_t i, std::size_t) {
+            return BalanceHeuristic::weight(d, i);
+        };
+        const auto power = [](const Pair& d, std::size_t i, std::size_t) {
+            return PowerHeuristic::weight(d, i);
+        };
+        const auto maximum = [](const Pair& d, std::size_t i, std::size_t) {
+            return MaximumHeuristic::weight(d, i);
+        };
+        const auto random = [&](const Pair&, std::size_t i, std::size_t k) {
+            return i == 0 ? any[k] : 1 - any[k];
+        };
         const double least = std::min({variance(power), variance(maximum), variance(random)});
         EXPECT_LE(variance(balance), least + bound);
     }

@@ -26,13 +26,15 @@ TEST(TableCsv, ReadsColumnsInTheOrderOfTheHeader)
 
 TEST(TableCsv, KeepsPositionsInDouble)
 {
-    EXPECT_EQ(lights_of("x,y,z,radius,r,g,b\n1000000.0000001,0,0,1,1,1,1").at(0).center.x, 1000000.0000001);
+    EXPECT_EQ(lights_of("x,y,z,radius,r,g,b\n1000000.0000001,0,0,1,1,1,1").at(0).center.x,
+              1000000.0000001);
 }
 
 TEST(TableCsv, ReadsWhatSpreadsheetsWrite)
 {
     const std::string plain = "x,y,z,radius,r,g,b\n1,2,3,4,5,6,7\n2,2,3,4,5,6,7\n";
-    const std::string dressed = "\xEF\xBB\xBFx, y,z ,radius,r,g,b\r\n1, 2,\t3,4,5,6,7\r\n2,2,3,4,5,6,7\r\n\r\n\n";
+    const std::string dressed =
+        "\xEF\xBB\xBFx, y,z ,radius,r,g,b\r\n1, 2,\t3,4,5,6,7\r\n2,2,3,4,5,6,7\r\n\r\n\n";
     const Lights a = lights_of(plain), b = lights_of(dressed);
     ASSERT_EQ(a.size(), 2u);
     ASSERT_EQ(b.size(), 2u);
@@ -72,43 +74,70 @@ const std::string header = "x,y,z,radius,r,g,b\n";
 const std::string columns = "the columns are x, y, z, radius, r, g, b, in any order";
 const BadTable bad_tables[] = {
     {"BadNumber", header + "1,2,3,4,5,6,7\n1,2,3,abc,5,6,7\n",
-     "bulbs.csv: line 3, column radius: found \"abc\"; a finite number belongs here\n    Write it as 0.5 or 1e-3."},
+     "bulbs.csv: line 3, column radius: found \"abc\"; a finite number belongs here\n    Write it "
+     "as 0.5 or 1e-3."},
     {"NumberWithTail", header + "1,2,3,4,5,6,7x\n",
-     "bulbs.csv: line 2, column b: found \"7x\"; a finite number belongs here\n    Write it as 0.5 or 1e-3."},
+     "bulbs.csv: line 2, column b: found \"7x\"; a finite number belongs here\n    Write it as 0.5 "
+     "or 1e-3."},
     {"EmptyField", header + "1,,3,4,5,6,7\n",
-     "bulbs.csv: line 2, column y: found \"\"; a finite number belongs here\n    Write it as 0.5 or 1e-3."},
+     "bulbs.csv: line 2, column y: found \"\"; a finite number belongs here\n    Write it as 0.5 "
+     "or 1e-3."},
     {"Nan", header + "nan,2,3,4,5,6,7\n",
-     "bulbs.csv: line 2, column x: found \"nan\"; a finite number belongs here\n    Write it as 0.5 or 1e-3."},
+     "bulbs.csv: line 2, column x: found \"nan\"; a finite number belongs here\n    Write it as "
+     "0.5 or 1e-3."},
     {"Infinite", header + "1,2,3,4,inf,6,7\n",
-     "bulbs.csv: line 2, column r: found \"inf\"; a finite number belongs here\n    Write it as 0.5 or 1e-3."},
+     "bulbs.csv: line 2, column r: found \"inf\"; a finite number belongs here\n    Write it as "
+     "0.5 or 1e-3."},
     {"OutOfRange", header + "1,2,3,4,5,1e999,7\n",
-     "bulbs.csv: line 2, column g: found \"1e999\"; a number lies within the range of a double\n    Use other units."},
+     "bulbs.csv: line 2, column g: found \"1e999\"; a number lies within the range of a double\n   "
+     " Use other units."},
     {"Underflow", header + "1,2,3,4,5,1e-999,7\n",
-     "bulbs.csv: line 2, column g: found \"1e-999\"; a number lies within the range of a double\n    Use other units."},
+     "bulbs.csv: line 2, column g: found \"1e-999\"; a number lies within the range of a double\n  "
+     "  Use other units."},
     {"NegativeRadius", header + "1,2,3,-4,5,6,7\n",
-     "bulbs.csv: line 2, column radius: found -4; a radius is greater than 0\n    Make it positive, or remove the sphere."},
+     "bulbs.csv: line 2, column radius: found -4; a radius is greater than 0\n    Make it "
+     "positive, or remove the sphere."},
     {"NegativeRadiance", header + "1,2,3,4,5,-6,7\n",
-     "bulbs.csv: line 2, columns r, g, b: found [5, -6, 7]; a radiance is finite and not negative\n    Make it positive, or 0 for a black light."},
+     "bulbs.csv: line 2, columns r, g, b: found [5, -6, 7]; a radiance is finite and not "
+     "negative\n    Make it positive, or 0 for a black light."},
     {"FarAway", header + "1,2e15,3,4,5,6,7\n",
-     "bulbs.csv: line 2, columns x, y, z: found [1, 2e+15, 3]; a coordinate lies within ±1e+15 scene units\n    Use larger units, or move the scene closer to its origin."},
+     "bulbs.csv: line 2, columns x, y, z: found [1, 2e+15, 3]; a coordinate lies within ±1e+15 "
+     "scene units\n    Use larger units, or move the scene closer to its origin."},
     {"ShortRow", header + "1,2,3\n",
-     "bulbs.csv: line 2: found 3 fields; a row has 7 fields, as the header has\n    Mend or remove the line."},
+     "bulbs.csv: line 2: found 3 fields; a row has 7 fields, as the header has\n    Mend or remove "
+     "the line."},
     {"LongRow", header + "1,2,3,4,5,6,7,8\n",
-     "bulbs.csv: line 2: found 8 fields; a row has 7 fields, as the header has\n    Mend or remove the line."},
+     "bulbs.csv: line 2: found 8 fields; a row has 7 fields, as the header has\n    Mend or remove "
+     "the line."},
     {"EmptyLineWithin", header + "1,2,3,4,5,6,7\n\n1,2,3,4,5,6,7\n",
-     "bulbs.csv: line 3: found an empty line; a row has 7 fields, as the header has\n    Mend or remove the line."},
-    {"MissingColumn", "x,y,z,r,g,b\n1,2,3,4,5,6\n", "bulbs.csv: line 1: found no column \"radius\"; " + columns + "\n    Add it."},
-    {"UnknownColumn", "x,y,z,raduis,r,g,b\n", "bulbs.csv: line 1: found the unknown column \"raduis\"; " + columns + "\n    Did you mean \"radius\"?"},
-    {"ExtraColumn", "x,y,z,radius,r,g,b,weight\n", "bulbs.csv: line 1: found the unknown column \"weight\"; " + columns + "\n    Remove it."},
-    {"ColumnTwice", "x,y,z,radius,r,g,r\n", "bulbs.csv: line 1: found the column \"r\" a second time; " + columns + "\n    Remove one of the two."},
-    {"TrailingComma", "x,y,z,radius,r,g,b,\n", "bulbs.csv: line 1: found the unknown column \"\"; " + columns + "\n    Remove it."},
+     "bulbs.csv: line 3: found an empty line; a row has 7 fields, as the header has\n    Mend or "
+     "remove the line."},
+    {"MissingColumn", "x,y,z,r,g,b\n1,2,3,4,5,6\n",
+     "bulbs.csv: line 1: found no column \"radius\"; " + columns + "\n    Add it."},
+    {"UnknownColumn", "x,y,z,raduis,r,g,b\n",
+     "bulbs.csv: line 1: found the unknown column \"raduis\"; " + columns +
+         "\n    Did you mean \"radius\"?"},
+    {"ExtraColumn", "x,y,z,radius,r,g,b,weight\n",
+     "bulbs.csv: line 1: found the unknown column \"weight\"; " + columns + "\n    Remove it."},
+    {"ColumnTwice", "x,y,z,radius,r,g,r\n",
+     "bulbs.csv: line 1: found the column \"r\" a second time; " + columns +
+         "\n    Remove one of the two."},
+    {"TrailingComma", "x,y,z,radius,r,g,b,\n",
+     "bulbs.csv: line 1: found the unknown column \"\"; " + columns + "\n    Remove it."},
     {"Semicolons", "x;y;z;radius;r;g;b\n1;2;3;4;5;6;7\n",
-     "bulbs.csv: line 1: found the header \"x;y;z;radius;r;g;b\"; " + columns + "\n    Separate the columns by commas."},
-    {"NoHeader", "1,2,3,4,5,6,7\n", "bulbs.csv: line 1: found the unknown column \"1\"; " + columns + "\n    Remove it."},
-    {"NoRows", header, "bulbs.csv: line 1: found a header and no rows; a table has at least one light\n    Add a row."},
-    {"Blank", "\n\n", "bulbs.csv: line 1: found the header \"\"; " + columns + "\n    Separate the columns by commas."},
+     "bulbs.csv: line 1: found the header \"x;y;z;radius;r;g;b\"; " + columns +
+         "\n    Separate the columns by commas."},
+    {"NoHeader", "1,2,3,4,5,6,7\n",
+     "bulbs.csv: line 1: found the unknown column \"1\"; " + columns + "\n    Remove it."},
+    {"NoRows", header,
+     "bulbs.csv: line 1: found a header and no rows; a table has at least one light\n    Add a "
+     "row."},
+    {"Blank", "\n\n",
+     "bulbs.csv: line 1: found the header \"\"; " + columns +
+         "\n    Separate the columns by commas."},
 };
-INSTANTIATE_TEST_SUITE_P(TableCsv, EveryBadTable, testing::ValuesIn(bad_tables), [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(TableCsv, EveryBadTable, testing::ValuesIn(bad_tables),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(TableCsv, RefusesAnEmptyFileAndAMissingOne)
 {

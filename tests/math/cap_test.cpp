@@ -16,12 +16,14 @@ long double solid_angle_of(long double theta)
     return 4 * std::numbers::pi_v<long double> * s * s;
 }
 
-/// A sphere at distance 3 that covers a cap of half-angle θ; d² − r² is exact but for its last rounding.
+/// A sphere at distance 3 that covers a cap of half-angle θ; d² − r² is exact but for its last
+/// rounding.
 template <class T> Cap<T> cap_of_half_angle(double theta)
 {
     const double d = 3, c = std::cos(theta);
     const Vec3<double> axis{2.0 / 3, 2.0 / 3, 1.0 / 3};
-    return cap_towards(vec_cast<T>(axis * d), static_cast<T>(d * std::sin(theta)), static_cast<T>(d * d * c * c));
+    return cap_towards(vec_cast<T>(axis * d), static_cast<T>(d * std::sin(theta)),
+                       static_cast<T>(d * d * c * c));
 }
 
 template <class T> void expect_solid_angles(double tolerance)
@@ -29,11 +31,15 @@ template <class T> void expect_solid_angles(double tolerance)
     for (double theta = 1e-18; theta < 1.5700; theta = std::min(theta * 1.3, theta + 0.01)) {
         const auto exact = static_cast<double>(solid_angle_of(static_cast<long double>(theta)));
         const Cap<T> cap = cap_of_half_angle<T>(theta);
-        EXPECT_NEAR(static_cast<double>(cap.solid_angle()) / exact, 1, tolerance) << "theta = " << theta;
+        EXPECT_NEAR(static_cast<double>(cap.solid_angle()) / exact, 1, tolerance)
+            << "theta = " << theta;
     }
 }
 
-TEST(Cap, SolidAngleIsRightFrom1e18RadiansToNearlyAHemisphereInFloat) { expect_solid_angles<float>(1e-6); }
+TEST(Cap, SolidAngleIsRightFrom1e18RadiansToNearlyAHemisphereInFloat)
+{
+    expect_solid_angles<float>(1e-6);
+}
 
 TEST(Cap, SolidAngleIsRightInDouble) { expect_solid_angles<double>(1e-14); }
 
@@ -41,8 +47,10 @@ TEST(Cap, LanesAgreeWithOneAtATime)
 {
     using V = TestLanes<float>;
     const auto theta = [](std::size_t i) { return std::pow(10.0, -static_cast<double>(i)); };
-    const V radius = lanes_from<V>([&](std::size_t i) { return static_cast<float>(2 * std::sin(theta(i))); });
-    const V gap2 = lanes_from<V>([&](std::size_t i) { return static_cast<float>(4 * std::pow(std::cos(theta(i)), 2)); });
+    const V radius =
+        lanes_from<V>([&](std::size_t i) { return static_cast<float>(2 * std::sin(theta(i))); });
+    const V gap2 = lanes_from<V>(
+        [&](std::size_t i) { return static_cast<float>(4 * std::pow(std::cos(theta(i)), 2)); });
     const Cap<V> caps = cap_towards(Vec3<V>{V(0.F), V(2.F), V(0.F)}, radius, gap2);
     for (std::size_t i = 0; i < lane_count<V>; ++i) {
         const Cap<float> one = cap_towards(Vec3<float>{0, 2, 0}, lane(radius, i), lane(gap2, i));
@@ -55,7 +63,8 @@ TEST(Cap, OfASphereClosebyKeepsItsDigitsInDouble)
 {
     const long double h = 1e-6L, d = 1 + h, gap2 = h * (2 + h);
     const long double exact = 2 * std::numbers::pi_v<long double> * (1 - std::sqrt(gap2) / d);
-    const double found = cap_of_sphere(Vec3<double>{0, 1 + 1e-6, 0}, 1.0, Vec3<double>{0, 0, 0}).solid_angle();
+    const double found =
+        cap_of_sphere(Vec3<double>{0, 1 + 1e-6, 0}, 1.0, Vec3<double>{0, 0, 0}).solid_angle();
     EXPECT_NEAR(found / static_cast<double>(exact), 1, 1e-12);
 }
 

@@ -24,8 +24,13 @@ template <class T> double error_of(const Frame<T>& f, const Vec3<T>& z)
 
 std::vector<Vec3<double>> axes()
 {
-    std::vector<Vec3<double>> list{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0},
-                                   normalized(Vec3<double>{1e-7, 0, -1}), normalized(Vec3<double>{1, 0, -1e-12})};
+    std::vector<Vec3<double>> list{{0, 0, 1},
+                                   {0, 0, -1},
+                                   {1, 0, 0},
+                                   {0, 1, 0},
+                                   {0, -1, 0},
+                                   normalized(Vec3<double>{1e-7, 0, -1}),
+                                   normalized(Vec3<double>{1, 0, -1e-12})};
     Uniforms uniforms(1);
     for (int i = 0; i < 1000; ++i) list.push_back(uniforms.direction());
     return list;
@@ -57,7 +62,8 @@ TEST(Frame, LanesAgreeWithOneAtATime)
     for (std::size_t first = 0; first + lane_count<V> <= list.size(); first += lane_count<V>) {
         const auto z = [&](std::size_t i) { return vec_cast<float>(list[first + i]); };
         const Frame<V> frames = frame_around(vec_lanes_from<V>(z));
-        for (std::size_t i = 0; i < lane_count<V>; ++i) EXPECT_EQ(lane(frames.x, i), frame_around(z(i)).x);
+        for (std::size_t i = 0; i < lane_count<V>; ++i)
+            EXPECT_EQ(lane(frames.x, i), frame_around(z(i)).x);
     }
 }
 

@@ -8,7 +8,8 @@
 namespace mis {
 namespace {
 
-template <class T> class EveryLanes : public testing::Test {};
+template <class T> class EveryLanes : public testing::Test {
+};
 using LaneTypes = testing::Types<float, double, TestLanes<float>, TestLanes<double>>;
 TYPED_TEST_SUITE(EveryLanes, LaneTypes);
 

@@ -29,14 +29,17 @@ template <class T> void expect_distances(double tolerance, double direction_roun
 {
     Uniforms uniforms(4);
     for (int i = 0; i < 20'000; ++i) {
-        // Closer than a tenth of a radius, d itself is known to a rounding only: that takes d − r from double.
+        // Closer than a tenth of a radius, d itself is known to a rounding only: that takes d − r
+        // from double.
         const double d = 10, radius = d / uniforms.log_between(1.1, 1e5);
         const Vec3<double> c = vec_cast<double>(vec_cast<T>(uniforms.direction() * d));
         // Nearer to the rim than a direction rounds, hit and miss are a matter of that rounding.
         const double share = std::max(0.0, 1 - 4 * direction_rounding * d / radius) * uniforms();
-        const Vec3<double> wi = vec_cast<double>(vec_cast<T>(towards_disk(c, radius, share, uniforms)));
+        const Vec3<double> wi =
+            vec_cast<double>(vec_cast<T>(towards_disk(c, radius, share, uniforms)));
         const T found = hit_distance(vec_cast<T>(c), static_cast<T>(radius), vec_cast<T>(wi));
-        const long double exact = exact_distance(c, static_cast<double>(static_cast<T>(radius)), wi);
+        const long double exact =
+            exact_distance(c, static_cast<double>(static_cast<T>(radius)), wi);
         ASSERT_NEAR(static_cast<double>(found) / static_cast<double>(exact), 1, tolerance)
             << "d/r = " << d / radius << ", share = " << share;
     }
@@ -62,11 +65,13 @@ TEST(HitDistance, LanesAgreeWithOneAtATime)
         std::array<Vec3<float>, lane_count<V>> c, wi;
         for (std::size_t i = 0; i < c.size(); ++i) {
             c[i] = vec_cast<float>(uniforms.in_box(3));
-            wi[i] = vec_cast<float>(towards_disk(vec_cast<double>(c[i]), 1, 1.5 * uniforms(), uniforms));
+            wi[i] = vec_cast<float>(
+                towards_disk(vec_cast<double>(c[i]), 1, 1.5 * uniforms(), uniforms));
         }
         const V found = hit_distance(vec_lanes_from<V>([&](std::size_t i) { return c[i]; }), V(1.F),
                                      vec_lanes_from<V>([&](std::size_t i) { return wi[i]; }));
-        for (std::size_t i = 0; i < c.size(); ++i) EXPECT_EQ(lane(found, i), hit_distance(c[i], 1.F, wi[i]));
+        for (std::size_t i = 0; i < c.size(); ++i)
+            EXPECT_EQ(lane(found, i), hit_distance(c[i], 1.F, wi[i]));
     }
 }
 

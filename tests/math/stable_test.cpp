@@ -7,7 +7,8 @@
 namespace mis {
 namespace {
 
-template <class T> class EveryNumber : public testing::Test {};
+template <class T> class EveryNumber : public testing::Test {
+};
 using NumberTypes = testing::Types<float, double, TestLanes<float>, TestLanes<double>>;
 TYPED_TEST_SUITE(EveryNumber, NumberTypes);
 
@@ -26,9 +27,11 @@ TYPED_TEST(EveryNumber, CosToTheMIsRightTo4UlpTimesOnePlusItsLogarithm)
     using T = TypeParam;
     for_each_power([](double m, double exact_sin2) {
         // What the formula is given, in its own number type.
-        const auto sin2 = static_cast<Scalar<T>>(exact_sin2), cos2 = static_cast<Scalar<T>>(1 - exact_sin2);
+        const auto sin2 = static_cast<Scalar<T>>(exact_sin2),
+                   cos2 = static_cast<Scalar<T>>(1 - exact_sin2);
         const bool near_axis = sin2 < Scalar<T>(0.5);
-        const long double ln = near_axis ? std::log1p(-static_cast<long double>(sin2)) : std::log(static_cast<long double>(cos2));
+        const long double ln = near_axis ? std::log1p(-static_cast<long double>(sin2))
+                                         : std::log(static_cast<long double>(cos2));
         const long double log_value = static_cast<long double>(m) / 2 * ln;
         const auto exact = static_cast<double>(std::exp(log_value));
         const auto found = static_cast<double>(lane(pow_cos(T(sin2), T(cos2), m), 0));
@@ -59,10 +62,11 @@ TYPED_TEST(EveryNumber, TheLobesOneMinusCosKeepsItsDigitsForAnyExponent)
     for (const double m : {0.0, 1.0, 100.0, 1e6, 1e9})
         for (const double u : {1e-7, 1e-3, 0.25, 0.5, 0.9, 0.999}) {
             const auto given = static_cast<Scalar<T>>(u);
-            const long double exact =
-                -std::expm1(std::log1p(-static_cast<long double>(given)) / (static_cast<long double>(m) + 1));
+            const long double exact = -std::expm1(std::log1p(-static_cast<long double>(given)) /
+                                                  (static_cast<long double>(m) + 1));
             const auto found = static_cast<double>(lane(one_minus_cos_of_lobe(T(given), m), 0));
-            EXPECT_NEAR(found / static_cast<double>(exact), 1, 6 * ulp_of<T>) << "m = " << m << ", u = " << u;
+            EXPECT_NEAR(found / static_cast<double>(exact), 1, 6 * ulp_of<T>)
+                << "m = " << m << ", u = " << u;
         }
 }
 

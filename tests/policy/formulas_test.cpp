@@ -42,7 +42,8 @@ TEST(UniformPolicy, DrawsEveryLightAlike)
 }
 TEST(PowerPolicy, DrawsInProportionToLuminanceTimesArea)
 {
-    expect_in_proportion<PowerPolicy>([](const Light& l) { return brightness(l) * l.radius * l.radius; });
+    expect_in_proportion<PowerPolicy>(
+        [](const Light& l) { return brightness(l) * l.radius * l.radius; });
 }
 TEST(SolidAnglePolicy, DrawsInProportionToTheSolidAngle)
 {
@@ -50,7 +51,8 @@ TEST(SolidAnglePolicy, DrawsInProportionToTheSolidAngle)
 }
 TEST(RadiantSolidAnglePolicy, DrawsInProportionToLuminanceTimesSolidAngle)
 {
-    expect_in_proportion<RadiantSolidAnglePolicy>([](const Light& l) { return brightness(l) * solid_angle_from_x(l); });
+    expect_in_proportion<RadiantSolidAnglePolicy>(
+        [](const Light& l) { return brightness(l) * solid_angle_from_x(l); });
 }
 
 TEST(AllPolicy, ExpectsOneDrawOfEveryLight)

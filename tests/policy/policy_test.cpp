@@ -22,9 +22,11 @@ const Vec3<double> x{0, 0, 0}, up{0, 1, 0};
 /// What rounds: an alias table keeps its probabilities as floats.
 constexpr double rounding = 2e-7;
 
-template <class P> struct Chooses : std::bool_constant<!P::draws_every_light> {};
+template <class P> struct Chooses : std::bool_constant<!P::draws_every_light> {
+};
 
-template <class P> class EveryPolicy : public testing::Test {};
+template <class P> class EveryPolicy : public testing::Test {
+};
 using ChoosingPolicies = TestedTypes<Filtered<Policies, Chooses>>;
 TYPED_TEST_SUITE(EveryPolicy, ChoosingPolicies, RegisteredName);
 
@@ -69,14 +71,16 @@ TYPED_TEST(EveryPolicy, ProbabilitiesSumTo1)
     EXPECT_NEAR((Prepared<TypeParam, float>(lights, x, up).sum()), 1, rounding);
 }
 
-/// What a policy may see is the light's solid angle, radiance and place over the horizon: no unit, axis or order.
+/// What a policy may see is the light's solid angle, radiance and place over the horizon: no unit,
+/// axis or order.
 TYPED_TEST(EveryPolicy, DoesNotDependOnUnitsAxesPlaceOrOrder)
 {
     const Lights lights = thirty_lights_one_dark();
     const std::vector<double> usual = Prepared<TypeParam>(lights, x, up).probabilities();
     const auto expect_usual = [&](const std::vector<double>& found, const char* what) {
         for (std::size_t j = 0; j < usual.size(); ++j)
-            EXPECT_NEAR(found[j], usual[j], rounding * usual[j] + 1e-9 * rounding) << what << ", light " << j;
+            EXPECT_NEAR(found[j], usual[j], rounding * usual[j] + 1e-9 * rounding)
+                << what << ", light " << j;
     };
     for (const double scale : {1e-6, 1e6}) {
         Lights scaled_lights = lights;
@@ -119,8 +123,10 @@ TYPED_TEST(EveryPolicy, WithoutALightDrawsNone)
 /// Above the horizon and not black: it can be drawn, even when outshone by 1e12 or outsized by 1e8.
 TYPED_TEST(EveryPolicy, ALightThatCanContributeHasAProbability)
 {
-    const Lights bright{make_light({0, 2, 0}, 0.1, Vec3<double>(1)), make_light({1, 2, 0}, 0.1, Vec3<double>(1e12))};
-    const Lights big{make_light({0, 2, 0}, 1e-8, Vec3<double>(1)), make_light({1, 2, 0}, 1, Vec3<double>(1))};
+    const Lights bright{make_light({0, 2, 0}, 0.1, Vec3<double>(1)),
+                        make_light({1, 2, 0}, 0.1, Vec3<double>(1e12))};
+    const Lights big{make_light({0, 2, 0}, 1e-8, Vec3<double>(1)),
+                     make_light({1, 2, 0}, 1, Vec3<double>(1))};
     for (const Lights& lights : {bright, big}) {
         const Prepared<TypeParam, float> table(lights, x, up);
         EXPECT_GT(table.probability(0), 0);
@@ -138,7 +144,8 @@ TYPED_TEST(EveryPolicy, ARadiusOf1e20IsALightLikeAnyOther)
     const Prepared<TypeParam, double> in_double(lights, x, up);
     EXPECT_NEAR(in_float.sum(), 1, rounding);
     EXPECT_GT(in_float.probability(0), 0);
-    for (std::size_t j = 0; j < lights.size(); ++j) EXPECT_NEAR(in_float.probability(j), in_double.probability(j), 1e-6);
+    for (std::size_t j = 0; j < lights.size(); ++j)
+        EXPECT_NEAR(in_float.probability(j), in_double.probability(j), 1e-6);
 }
 
 TYPED_TEST(EveryPolicy, FloatAndLanesAgreeWithDouble)
@@ -146,8 +153,10 @@ TYPED_TEST(EveryPolicy, FloatAndLanesAgreeWithDouble)
     const Lights lights = thirty_lights_one_dark();
     const std::vector<double> exact = Prepared<TypeParam, double>(lights, x, up).probabilities();
     const std::vector<double> one = Prepared<TypeParam, float>(lights, x, up).probabilities();
-    const std::vector<double> lanes = Prepared<TypeParam, TestLanes<float>>(lights, x, up).probabilities();
-    const std::vector<double> wide = Prepared<TypeParam, TestLanes<double>>(lights, x, up).probabilities();
+    const std::vector<double> lanes =
+        Prepared<TypeParam, TestLanes<float>>(lights, x, up).probabilities();
+    const std::vector<double> wide =
+        Prepared<TypeParam, TestLanes<double>>(lights, x, up).probabilities();
     for (std::size_t j = 0; j < lights.size(); ++j) {
         EXPECT_NEAR(one[j], exact[j], 2e-6 * exact[j] + 1e-12) << j;
         EXPECT_NEAR(lanes[j], exact[j], 2e-6 * exact[j] + 1e-12) << j;
@@ -161,7 +170,8 @@ TYPED_TEST(EveryPolicy, AnyNumberOfLightsFillsTheLanes)
     const Lights all = thirty_lights_one_dark();
     for (std::size_t count = 1; count <= 19; ++count) {
         const Lights lights(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
-        EXPECT_NEAR((Prepared<TypeParam, TestLanes<float>>(lights, x, up).sum()), 1, rounding) << count;
+        EXPECT_NEAR((Prepared<TypeParam, TestLanes<float>>(lights, x, up).sum()), 1, rounding)
+            << count;
     }
 }
 

@@ -13,15 +13,17 @@ template <class P, class T = double> class Prepared {
 public:
     using S = Scalar<T>;
     Prepared(const Lights& lights, const Vec3<double>& x, const Vec3<double>& n)
-        : policy_(lights),
-          columns_(fill_light_columns(lights, x, storage_)),
+        : policy_(lights), columns_(fill_light_columns(lights, x, storage_)),
           scratch_(P::table_bytes(lights.size()) + 64),
           table_(policy_.template prepare<T>({Vec3<S>(S(0)), vec_cast<S>(n)}, columns_, scratch_)),
           count_(lights.size())
     {
     }
     Choice choose(std::uint64_t bits) const { return table_.choose(bits); }
-    double probability(std::size_t j) const { return table_.probability(static_cast<LightIndex>(j)); }
+    double probability(std::size_t j) const
+    {
+        return table_.probability(static_cast<LightIndex>(j));
+    }
     std::vector<double> probabilities() const
     {
         std::vector<double> all(count_);
@@ -39,7 +41,8 @@ private:
     std::vector<S> storage_;
     LightColumns<S> columns_;
     Scratch scratch_;
-    decltype(policy_.template prepare<T>(std::declval<const ChoicePoint<S>&>(), columns_, scratch_)) table_;
+    decltype(policy_.template prepare<T>(std::declval<const ChoicePoint<S>&>(), columns_,
+                                         scratch_)) table_;
     std::size_t count_;
 };
 

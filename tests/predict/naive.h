@@ -6,19 +6,21 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <random>
 
 namespace mis::naive {
 
-// The estimator as design §1 words it, written without care: textbook formulas, one sample at a time, double. It shares
-// nothing with mis/predict but the BSDFs.
+// The estimator as design §1 words it, written without care: textbook formulas, one sample at a
+// time, double. It shares nothing with mis/predict but the BSDFs.
 
 using Vec = Vec3<double>;
+inline constexpr double no_hit = std::numeric_limits<double>::infinity();
 
 struct Hit {
     int light = -1;
-    double t = INFINITY;
+    double t = no_hit;
 };
 
 /// One probe's estimator of one strategy.
@@ -32,7 +34,8 @@ public:
         double sum = 0;
         for (const Light& light : scene.lights) {
             const double d = glm::length(light.center - probe.position);
-            const double solid = 2 * std::numbers::pi * (1 - std::sqrt(1 - light.radius * light.radius / (d * d)));
+            const double solid =
+                2 * std::numbers::pi * (1 - std::sqrt(1 - light.radius * light.radius / (d * d)));
             const double y = luminance(radiance(light));
             solid_angle_.push_back(solid);
             double weight = 1;
@@ -42,13 +45,16 @@ public:
             probability_.push_back(weight);
             sum += weight;
         }
-        for (std::size_t j = 0; j < count; ++j) probability_[j] = s_.policy == "all" ? 1 : probability_[j] / sum;
+        for (std::size_t j = 0; j < count; ++j)
+            probability_[j] = s_.policy == "all" ? 1 : probability_[j] / sum;
         for_each_type(Bsdfs{}, [&]<class B>() {
             const Material& material = scene.materials[static_cast<std::size_t>(probe.material)];
             if (B::name != material.type) return;
             const B bsdf(material);
             f_ = [bsdf](const Vec& o, const Vec& i) { return bsdf.evaluate(o, i); };
-            draw_ = [bsdf](const Vec& o, double lobe, Vec2<double> u) { return bsdf.sample(o, lobe, u); };
+            draw_ = [bsdf](const Vec& o, double lobe, Vec2<double> u) {
+                return bsdf.sample(o, lobe, u);
+            };
         });
     }
 
@@ -56,7 +62,8 @@ public:
     double sample()
     {
         if (!s_.chooses_light()) return alone();
-        if (s_.model == Model::one_sample) return uniform() < 0.5 ? light_draw(choose()) : bsdf_draw();
+        if (s_.model == Model::one_sample)
+            return uniform() < 0.5 ? light_draw(choose()) : bsdf_draw();
         double sum = 0;
         if (s_.policy == "all") {
             for (int j = 0; j < int(scene_.lights.size()); ++j)
@@ -75,9 +82,9 @@ private:
     static double sphere(const Vec& c, double r, const Vec& w)
     {
         const double b = dot(c, w), disc = b * b - dot(c, c) + r * r;
-        if (disc < 0) return INFINITY;
+        if (disc < 0) return no_hit;
         const double near = b - std::sqrt(disc), far = b + std::sqrt(disc);
-        return near > 0 ? near : far > 0 ? far : INFINITY;
+        return near > 0 ? near : far > 0 ? far : no_hit;
     }
     Hit nearest(const Vec& w) const
     {
@@ -97,11 +104,12 @@ private:
     bool holds(int j, const Vec& w) const
     {
         const Light& light = scene_.lights[index(j)];
-        return sphere(light.center - probe_.position, light.radius, w) < INFINITY;
+        return sphere(light.center - probe_.position, light.radius, w) < no_hit;
     }
     double light_density(const Vec& w, int nearest_light) const
     {
-        if (s_.technique != "union") return probability_[index(nearest_light)] / solid_angle_[index(nearest_light)];
+        if (s_.technique != "union")
+            return probability_[index(nearest_light)] / solid_angle_[index(nearest_light)];
         double sum = 0;
         for (int j = 0; j < int(scene_.lights.size()); ++j)
             if (holds(j, w)) sum += probability_[index(j)] / solid_angle_[index(j)];
@@ -111,14 +119,16 @@ private:
     {
         double u = uniform();
         int j = 0;
-        while (j + 1 < int(probability_.size()) && u >= probability_[index(j)]) u -= probability_[index(j++)];
+        while (j + 1 < int(probability_.size()) && u >= probability_[index(j)])
+            u -= probability_[index(j++)];
         return j;
     }
     double light_draw(int j)
     {
         const Light& light = scene_.lights[index(j)];
         const Vec axis = glm::normalize(light.center - probe_.position);
-        const double z = 1 - uniform() * solid_angle_[index(j)] / (2 * std::numbers::pi), phi = 2 * std::numbers::pi * uniform();
+        const double z = 1 - uniform() * solid_angle_[index(j)] / (2 * std::numbers::pi),
+                     phi = 2 * std::numbers::pi * uniform();
         const double rho = std::sqrt(std::max(0.0, 1 - z * z));
         const Vec w = frame_around(axis).to_world(Vec(rho * std::cos(phi), rho * std::sin(phi), z));
         const Hit hit = nearest(w);
@@ -143,25 +153,33 @@ private:
         if (!(local.z > 0)) return 0;
         const BsdfValue<double> value = f_(wo_, local);
         const bool one = s_.model == Model::one_sample;
-        const double l = (one ? 0.5 : s_.counts[0]) * light_density(w, light), b = (one ? 0.5 : s_.counts[1]) * value.pdf;
+        const double l = (one ? 0.5 : s_.counts[0]) * light_density(w, light),
+                     b = (one ? 0.5 : s_.counts[1]) * value.pdf;
         double weight = 0;
         if (s_.heuristic == "light") weight = 1;
         if (s_.heuristic == "balance") weight = l / (l + b);
         if (s_.heuristic == "power") weight = l * l / (l * l + b * b);
         if (s_.heuristic == "maximum") weight = l >= b ? 1 : 0;
         if (s_.heuristic == "cutoff") {
-            const double most = std::max(l, b), kept_l = l < 0.1 * most ? 0 : l, kept_b = b < 0.1 * most ? 0 : b;
+            const double most = std::max(l, b), kept_l = l < 0.1 * most ? 0 : l,
+                         kept_b = b < 0.1 * most ? 0 : b;
             weight = kept_l / (kept_l + kept_b);
         }
-        return by_light ? weight * integrand(local, value.f, light) / l : (1 - weight) * integrand(local, value.f, light) / b;
+        return by_light ? weight * integrand(local, value.f, light) / l
+                        : (1 - weight) * integrand(local, value.f, light) / b;
     }
     double alone()
     {
         Vec local;
-        if (s_.technique == "brdf") local = draw_(wo_, uniform(), Vec2<double>(uniform(), uniform()));
+        if (s_.technique == "brdf")
+            local = draw_(wo_, uniform(), Vec2<double>(uniform(), uniform()));
         const double phi = 2 * std::numbers::pi * uniform(), u = uniform();
-        if (s_.technique == "cosine") local = Vec(std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi), std::sqrt(1 - u));
-        if (s_.technique == "hemisphere") local = Vec(std::sqrt(1 - u * u) * std::cos(phi), std::sqrt(1 - u * u) * std::sin(phi), u);
+        if (s_.technique == "cosine")
+            local =
+                Vec(std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi), std::sqrt(1 - u));
+        if (s_.technique == "hemisphere")
+            local =
+                Vec(std::sqrt(1 - u * u) * std::cos(phi), std::sqrt(1 - u * u) * std::sin(phi), u);
         if (!(local.z > 0)) return 0;
         const Vec w = frame_.to_world(local);
         const Hit hit = nearest(w);

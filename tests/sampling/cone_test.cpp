@@ -12,7 +12,8 @@
 namespace mis {
 namespace {
 
-template <class T> class ConeOf : public testing::Test {};
+template <class T> class ConeOf : public testing::Test {
+};
 using NumberTypes = testing::Types<float, double>;
 TYPED_TEST_SUITE(ConeOf, NumberTypes);
 
@@ -20,7 +21,8 @@ TYPED_TEST_SUITE(ConeOf, NumberTypes);
 template <class T> Cap<T> cap_of_half_angle(double theta, const Vec3<double>& axis)
 {
     const double d = 4, c = std::cos(theta);
-    return cap_towards(vec_cast<T>(axis * d), static_cast<T>(d * std::sin(theta)), static_cast<T>(d * d * c * c));
+    return cap_towards(vec_cast<T>(axis * d), static_cast<T>(d * std::sin(theta)),
+                       static_cast<T>(d * d * c * c));
 }
 
 constexpr std::array half_angles{1e-8, 1e-4, 0.1, 1.0, 1.5707};
@@ -42,15 +44,19 @@ TYPED_TEST(ConeOf, DrawsAreUniformOverTheCap)
         const Cap<T> cap = cap_of_half_angle<T>(theta, axis);
         const Frame<double> frame = frame_around(vec_cast<double>(cap.axis));
         const double whole = static_cast<double>(cap.one_minus_cos());
-        std::vector<double> observed(rings * sectors), expected(rings * sectors, draws / double(rings * sectors));
+        std::vector<double> observed(rings * sectors),
+            expected(rings * sectors, draws / double(rings * sectors));
         Uniforms uniforms(1);
         for (int i = 0; i < draws; ++i) {
             const Vec2<double> u = uniforms.pair();
-            const CapDraw<T> draw = sample_cone(cap, Vec2<T>{static_cast<T>(u.x), static_cast<T>(u.y)});
+            const CapDraw<T> draw =
+                sample_cone(cap, Vec2<T>{static_cast<T>(u.x), static_cast<T>(u.y)});
             const Vec3<double> local = frame.to_local(vec_cast<double>(draw.offset));
             const double turn = std::atan2(local.y, local.x) / (2 * std::numbers::pi);
-            const int ring = std::min(static_cast<int>(one_minus_cos_of(draw) / whole * rings), rings - 1);
-            const int sector = std::min(static_cast<int>((turn < 0 ? turn + 1 : turn) * sectors), sectors - 1);
+            const int ring =
+                std::min(static_cast<int>(one_minus_cos_of(draw) / whole * rings), rings - 1);
+            const int sector =
+                std::min(static_cast<int>((turn < 0 ? turn + 1 : turn) * sectors), sectors - 1);
             ++observed[static_cast<std::size_t>(ring * sectors + sector)];
         }
         EXPECT_GT(chi2_p_value(observed, expected), false_alarm) << "half-angle " << theta;
@@ -66,8 +72,11 @@ TYPED_TEST(ConeOf, DrawsStayInsideTheCapToTheRoundingOfADirection)
             const Cap<T> cap = cap_of_half_angle<T>(theta, uniforms.direction());
             Vec2<double> u = uniforms.pair();
             if (i % 4 == 0) u.x = 1 - 0x1p-24;  // the rim
-            const CapDraw<T> draw = sample_cone(cap, Vec2<T>{static_cast<T>(u.x), static_cast<T>(u.y)});
-            ASSERT_LE(one_minus_cos_of(draw) / static_cast<double>(cap.one_minus_cos()), 1 + 8 * ulp_of<T>) << theta;
+            const CapDraw<T> draw =
+                sample_cone(cap, Vec2<T>{static_cast<T>(u.x), static_cast<T>(u.y)});
+            ASSERT_LE(one_minus_cos_of(draw) / static_cast<double>(cap.one_minus_cos()),
+                      1 + 8 * ulp_of<T>)
+                << theta;
             ASSERT_NEAR(static_cast<double>(length(draw.wi)), 1, 4 * ulp_of<T>);
             ASSERT_EQ(draw.wi, cap.axis + draw.offset);
         }
@@ -79,14 +88,17 @@ TYPED_TEST(ConeOf, TheDensityIsOneOverTheSolidAngleHoweverItIsWritten)
     for (const double theta : half_angles) {
         const Cap<T> cap = cap_of_half_angle<T>(theta, axis);
         const CapDraw<T> draw = sample_cone(cap, Vec2<T>{T(0.3), T(0.7)});
-        const double inverse = static_cast<double>(cap.sin_max * (cap.sin_max * draw.inverse_pdf_sin2));
+        const double inverse =
+            static_cast<double>(cap.sin_max * (cap.sin_max * draw.inverse_pdf_sin2));
         EXPECT_NEAR(inverse * static_cast<double>(cone_pdf(cap)), 1, 8 * ulp_of<T>);
         const double s = std::sin(theta / 2);
-        EXPECT_NEAR(static_cast<double>(cone_pdf(cap)) * 4 * std::numbers::pi * s * s, 1, 20 * ulp_of<T>);
+        EXPECT_NEAR(static_cast<double>(cone_pdf(cap)) * 4 * std::numbers::pi * s * s, 1,
+                    20 * ulp_of<T>);
     }
 }
 
-/// 1/(pdf · sin²θ_max) times sin θ_max twice: the products are normal floats where the density is infinite.
+/// 1/(pdf · sin²θ_max) times sin θ_max twice: the products are normal floats where the density is
+/// infinite.
 TEST(Cone, OfARadiusWhoseSquareIsNoFloatStillHasAFiniteIntegral)
 {
     const Cap<float> cap = cap_towards(Vec3<float>{0, 2, 0}, 1e-20F, 4.F);
@@ -103,14 +115,20 @@ TYPED_TEST(ConeOf, TheDistanceIsWhereTheDrawMeetsTheSphere)
     using T = TypeParam;
     Uniforms uniforms(3);
     for (int i = 0; i < scaled(20'000); ++i) {
-        const Vec3<double> to_center = vec_cast<double>(vec_cast<T>(uniforms.direction() * uniforms.between(1, 8)));
+        const Vec3<double> to_center =
+            vec_cast<double>(vec_cast<T>(uniforms.direction() * uniforms.between(1, 8)));
         const double d = length(to_center);
-        const double radius = static_cast<double>(static_cast<T>(d * uniforms.log_between(1e-6, 0.999)));
-        const Cap<T> cap = cap_towards(vec_cast<T>(to_center), static_cast<T>(radius), static_cast<T>(d * d - radius * radius));
+        const double radius =
+            static_cast<double>(static_cast<T>(d * uniforms.log_between(1e-6, 0.999)));
+        const Cap<T> cap = cap_towards(vec_cast<T>(to_center), static_cast<T>(radius),
+                                       static_cast<T>(d * d - radius * radius));
         const Vec2<double> u = uniforms.pair();
-        const CapDraw<T> draw = sample_cone(cap, Vec2<T>{static_cast<T>(u.x * 0.999), static_cast<T>(u.y)});
-        const double exact = hit_distance(to_center, radius, normalized(normalized(to_center) + vec_cast<double>(draw.offset)));
-        ASSERT_NEAR(static_cast<double>(draw.distance), exact, 60 * ulp_of<T> * exact + 100 * ulp_of<T> * d)
+        const CapDraw<T> draw =
+            sample_cone(cap, Vec2<T>{static_cast<T>(u.x * 0.999), static_cast<T>(u.y)});
+        const double exact = hit_distance(
+            to_center, radius, normalized(normalized(to_center) + vec_cast<double>(draw.offset)));
+        ASSERT_NEAR(static_cast<double>(draw.distance), exact,
+                    60 * ulp_of<T> * exact + 100 * ulp_of<T> * d)
             << "d/r = " << d / radius;
     }
 }
@@ -131,7 +149,8 @@ TYPED_TEST(ConeOf, NodesInPlaceOfRandomNumbersGiveTheClosedFormIrradiance)
                 sum += rule.weight[a] * rule.weight[b] * dot(vec_cast<double>(draw.wi), n) *
                        static_cast<double>(draw.inverse_pdf_sin2);
             }
-        EXPECT_NEAR(sum / (std::numbers::pi * dot(axis, n)), 1, sizeof(T) == 4 ? 1e-6 : 1e-12) << theta;
+        EXPECT_NEAR(sum / (std::numbers::pi * dot(axis, n)), 1, sizeof(T) == 4 ? 1e-6 : 1e-12)
+            << theta;
     }
 }
 
@@ -150,12 +169,16 @@ template <class V> void expect_lanes_agree()
         const V radius = load<V>(r.data());
         const Vec3<V> center = vec_lanes_from<V>([&](std::size_t i) { return c[i]; });
         const V gap2 = V(S(9)) - radius * radius;
-        const CapDraw<V> draws = sample_cone(cap_towards(center, radius, gap2), Vec2<V>{load<V>(u.data()), load<V>(v.data())});
+        const CapDraw<V> draws = sample_cone(cap_towards(center, radius, gap2),
+                                             Vec2<V>{load<V>(u.data()), load<V>(v.data())});
         for (std::size_t i = 0; i < c.size(); ++i) {
-            const CapDraw<S> one = sample_cone(cap_towards(c[i], r[i], lane(gap2, i)), Vec2<S>{u[i], v[i]});
+            const CapDraw<S> one =
+                sample_cone(cap_towards(c[i], r[i], lane(gap2, i)), Vec2<S>{u[i], v[i]});
             const double span = static_cast<double>(length(one.offset));
-            ASSERT_NEAR(static_cast<double>(length(lane(draws.offset, i) - one.offset)), 0, 20 * ulp_of<V> * span);
-            ASSERT_NEAR(static_cast<double>(lane(draws.distance, i) / one.distance), 1, 40 * ulp_of<V>);
+            ASSERT_NEAR(static_cast<double>(length(lane(draws.offset, i) - one.offset)), 0,
+                        20 * ulp_of<V> * span);
+            ASSERT_NEAR(static_cast<double>(lane(draws.distance, i) / one.distance), 1,
+                        40 * ulp_of<V>);
         }
     }
 }

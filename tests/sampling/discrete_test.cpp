@@ -23,9 +23,11 @@ struct OwnedSum {
     double probability(std::int32_t i) const { return table.probability(i); }
 };
 
-/// The share of all 2⁶⁴ bit patterns that choose each light, without a random number: cell by cell, the borders between
-/// two choices are found by halving. `cells` equal parts of the range hold at most one border each.
-template <class Table> std::vector<double> true_shares(const Table& table, std::size_t lights, std::uint64_t cells)
+/// The share of all 2⁶⁴ bit patterns that choose each light, without a random number: cell by cell,
+/// the borders between two choices are found by halving. `cells` equal parts of the range hold at
+/// most one border each.
+template <class Table>
+std::vector<double> true_shares(const Table& table, std::size_t lights, std::uint64_t cells)
 {
     std::vector<double> share(lights);
     __extension__ using Wide = unsigned __int128;
@@ -44,7 +46,8 @@ template <class Table> std::vector<double> true_shares(const Table& table, std::
         }
         share[static_cast<std::size_t>(own)] += static_cast<double>(low - first + 1) * 0x1p-64;
         if (low < last)
-            share[static_cast<std::size_t>(table.choose(last).light)] += static_cast<double>(last - low) * 0x1p-64;
+            share[static_cast<std::size_t>(table.choose(last).light)] +=
+                static_cast<double>(last - low) * 0x1p-64;
     }
     return share;
 }
@@ -57,7 +60,8 @@ std::vector<double> some_weights(int n, double ratio)
     return weights;
 }
 
-template <class Table> class EveryTable : public testing::Test {};
+template <class Table> class EveryTable : public testing::Test {
+};
 using Tables = testing::Types<AliasTable, OwnedSum>;
 TYPED_TEST_SUITE(EveryTable, Tables);
 
@@ -98,7 +102,8 @@ TYPED_TEST(EveryTable, NeverDrawsAWeightOf0AndAlwaysTheOnlyOther)
         std::vector<double> weights(7, 0.0);
         weights[place] = 1e-300;
         const TypeParam table(weights);
-        for (const std::uint64_t bits : {std::uint64_t{0}, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
+        for (const std::uint64_t bits :
+             {std::uint64_t{0}, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
             EXPECT_EQ(table.choose(bits).light, static_cast<std::int32_t>(place));
             EXPECT_NEAR(table.choose(bits).probability, 1, 1e-15);
         }
@@ -111,7 +116,8 @@ TYPED_TEST(EveryTable, WithoutAWeightDrawsNone)
         const TypeParam table(std::vector<double>(n, 0.0));
         EXPECT_EQ(table.choose(123).light, -1);
         EXPECT_EQ(table.choose(123).probability, 0);
-        for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(table.probability(static_cast<std::int32_t>(i)), 0);
+        for (std::size_t i = 0; i < n; ++i)
+            EXPECT_EQ(table.probability(static_cast<std::int32_t>(i)), 0);
     }
 }
 
@@ -122,7 +128,8 @@ TYPED_TEST(EveryTable, ARatioOf1e12BetweenWeightsKeepsTheRareOne)
     EXPECT_NEAR(table.probability(2) * 1e12, 1, 1e-3);
 }
 
-/// What is drawn is what is divided by, to 1e-6, for the rare ones and for the one that all others are topped up with.
+/// What is drawn is what is divided by, to 1e-6, for the rare ones and for the one that all others
+/// are topped up with.
 TYPED_TEST(EveryTable, TheTrueShareOfEachIsItsProbability)
 {
     std::vector<double> nearly_equal(100'000, 1.0), ratios = some_weights(1000, 1e9);

@@ -27,8 +27,9 @@ std::vector<Warp> warps()
          [](const Vec3<double>& w) { return cosine_pdf(w.z); }},
     };
     for (const double m : {0.0, 1.0, 2.5, 30.0, 1e4, 1e6})
-        list.push_back({"lobe " + std::to_string(m), [m](const Vec2<double>& u) { return sample_lobe(u, m); },
-                        [m](const Vec3<double>& w) { return lobe_pdf(w.x * w.x + w.y * w.y, w.z * w.z, m); }});
+        list.push_back(
+            {"lobe " + std::to_string(m), [m](const Vec2<double>& u) { return sample_lobe(u, m); },
+             [m](const Vec3<double>& w) { return lobe_pdf(w.x * w.x + w.y * w.y, w.z * w.z, m); }});
     return list;
 }
 
@@ -58,7 +59,8 @@ TEST(Warp, TheSameTestSeesAnExponentThatIs5PercentOff)
     const int draws = scaled(200'000);
     const PolarGrid grid({0, 0, 1}, 1e-4);
     std::vector<double> observed(grid.size());
-    auto expected = grid.integrals([](const Vec3<double>& w) { return lobe_pdf(w.x * w.x + w.y * w.y, w.z * w.z, 31.5); });
+    auto expected = grid.integrals(
+        [](const Vec3<double>& w) { return lobe_pdf(w.x * w.x + w.y * w.y, w.z * w.z, 31.5); });
     for (double& e : expected) e *= draws;
     Uniforms uniforms(6);
     for (int i = 0; i < draws; ++i) ++observed[grid.cell(sample_lobe(uniforms.pair(), 30))];
@@ -69,8 +71,10 @@ TEST(Warp, DrawsAreUnitVectorsAboveTheHorizonInFloat)
 {
     Uniforms uniforms(8);
     for (int i = 0; i < 10'000; ++i) {
-        const Vec2<float> u{static_cast<float>(uniforms() * 0.9999999), static_cast<float>(uniforms() * 0.9999999)};
-        for (const Vec3<float>& w : {sample_hemisphere(u), sample_cosine(u), sample_lobe(u, 7), sample_lobe(u, 1e6)}) {
+        const Vec2<float> u{static_cast<float>(uniforms() * 0.9999999),
+                            static_cast<float>(uniforms() * 0.9999999)};
+        for (const Vec3<float>& w :
+             {sample_hemisphere(u), sample_cosine(u), sample_lobe(u, 7), sample_lobe(u, 1e6)}) {
             ASSERT_NEAR(static_cast<double>(length(w)), 1, 1e-6);
             ASSERT_GE(w.z, 0);
         }

@@ -14,7 +14,8 @@ using testing::HasSubstr;
 
 const std::set<std::string> directions{"brdf", "cosine", "hemisphere"};
 
-/// Every combination of registered names, models and a few counts; whether it has a meaning is for checked() to say.
+/// Every combination of registered names, models and a few counts; whether it has a meaning is for
+/// checked() to say.
 std::vector<Strategy> all_combinations()
 {
     std::vector<Strategy> list;
@@ -22,8 +23,10 @@ std::vector<Strategy> all_combinations()
         for (const Choosable& heuristic : heuristic_names())
             for (const Choosable& technique : technique_names())
                 for (const Model model : {Model::multi, Model::one_sample})
-                    for (const std::array<int, 2> counts : {std::array{1, 1}, {1, 0}, {0, 1}, {4, 1}, {3, 2}, {4, 0}})
-                        list.push_back({policy.name, heuristic.name, technique.name, model, counts});
+                    for (const std::array<int, 2> counts :
+                         {std::array{1, 1}, {1, 0}, {0, 1}, {4, 1}, {3, 2}, {4, 0}})
+                        list.push_back(
+                            {policy.name, heuristic.name, technique.name, model, counts});
     return list;
 }
 
@@ -69,7 +72,8 @@ TEST(Strategy, EveryCombinationWithoutAMeaningIsRefusedByName)
             checked(s);
             ADD_FAILURE() << name_of(s) << " is taken";
         } catch (const StrategyError& error) {
-            EXPECT_THAT(error.what(), HasSubstr("\"" + name_of(s) + "\"")) << "the message does not name the strategy";
+            EXPECT_THAT(error.what(), HasSubstr("\"" + name_of(s) + "\""))
+                << "the message does not name the strategy";
         }
     }
     EXPECT_GT(refused, 0);
@@ -90,7 +94,8 @@ TEST(Strategy, NamesAreThoseOfTheContract)
     EXPECT_EQ(name_of({"solid-angle", "power"}), "solid-angle/power");
     EXPECT_EQ(name_of({"uniform", "light", "cone", Model::multi, {1, 0}}), "uniform/light");
     EXPECT_EQ(name_of({"power", "balance", "union"}), "power/balance/union");
-    EXPECT_EQ(name_of({"power", "balance", "union", Model::one_sample}), "power/balance/union/one-sample");
+    EXPECT_EQ(name_of({"power", "balance", "union", Model::one_sample}),
+              "power/balance/union/one-sample");
     EXPECT_EQ(name_of({"power", "balance", "cone", Model::multi, {4, 1}}), "power/balance@4+1");
 }
 
@@ -142,10 +147,13 @@ TEST(Strategy, AnUnknownNameGetsTheNearestAndTheList)
              {"uniform/balance/one-sampel", "one-sample"},
              {"hemisfere", "hemisphere"},
          }) {
-        EXPECT_THAT(refusal(name), HasSubstr("Did you mean \"" + std::string(nearest) + "\"?")) << name;
-        EXPECT_THAT(refusal(name), testing::AnyOf(HasSubstr("known are"), HasSubstr("or one of"))) << name;
+        EXPECT_THAT(refusal(name), HasSubstr("Did you mean \"" + std::string(nearest) + "\"?"))
+            << name;
+        EXPECT_THAT(refusal(name), testing::AnyOf(HasSubstr("known are"), HasSubstr("or one of")))
+            << name;
     }
-    for (const std::string_view name : {"", "/", "//", "/balance", "uniform/", "uniform//", "zzzzzz/balance", "@1+1"})
+    for (const std::string_view name :
+         {"", "/", "//", "/balance", "uniform/", "uniform//", "zzzzzz/balance", "@1+1"})
         EXPECT_NE(refusal(name), "") << "\"" << name << "\" is taken";
 }
 

@@ -9,7 +9,8 @@ namespace mis {
 #if defined(MIS_WITHOUT_LANES)
 template <class T> using TestLanes = T;
 #else
-/// The lanes that the compiler's flags allow: SSE2 on plain x86-64. Wider ones are tested through the kernels.
+/// The lanes that the compiler's flags allow: SSE2 on plain x86-64. Wider ones are tested through
+/// the kernels.
 template <class T> using TestLanes = xsimd::batch<T>;
 #endif
 
@@ -34,11 +35,13 @@ template <class V, class F> V lanes_from(const F& f)
 }
 template <class V, class F> Vec3<V> vec_lanes_from(const F& f)
 {
-    return {lanes_from<V>([&](std::size_t i) { return f(i).x; }), lanes_from<V>([&](std::size_t i) { return f(i).y; }),
+    return {lanes_from<V>([&](std::size_t i) { return f(i).x; }),
+            lanes_from<V>([&](std::size_t i) { return f(i).y; }),
             lanes_from<V>([&](std::size_t i) { return f(i).z; })};
 }
 
 /// Numbers that double, float and lanes are to agree on, as types.
-template <class T> inline constexpr double ulp_of = static_cast<double>(std::numeric_limits<Scalar<T>>::epsilon());
+template <class T>
+inline constexpr double ulp_of = static_cast<double>(std::numeric_limits<Scalar<T>>::epsilon());
 
 }  // namespace mis

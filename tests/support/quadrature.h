@@ -38,16 +38,21 @@ template <int N> struct UnitNodes {
     }
 };
 
-/// ∫ f(direction) dω over the cap of directions within 1 − cos θ ≤ one_minus_cos of the unit vector `axis`.
-/// Equal steps in azimuth, Gauss–Legendre in 1 − cos θ: exact to rounding for what is smooth over the cap.
-template <class F> auto integral_over_cap(const Vec3<double>& axis, double one_minus_cos, const F& f, int azimuths = 64)
+/// ∫ f(direction) dω over the cap of directions within 1 − cos θ ≤ one_minus_cos of the unit vector
+/// `axis`. Equal steps in azimuth, Gauss–Legendre in 1 − cos θ: exact to rounding for what is
+/// smooth over the cap.
+template <class F>
+auto integral_over_cap(const Vec3<double>& axis, double one_minus_cos, const F& f,
+                       int azimuths = 64)
 {
     const Frame<double> frame = frame_around(axis);
     return integral<32>(0, one_minus_cos, [&](double v) {
         const double sin_theta = std::sqrt(v * (2 - v)), step = 2 * std::numbers::pi / azimuths;
         std::decay_t<decltype(f(axis))> sum(0);
         for (int k = 0; k < azimuths; ++k)
-            sum += f(frame.to_world({sin_theta * std::cos(k * step), sin_theta * std::sin(k * step), 1 - v})) * step;
+            sum += f(frame.to_world(
+                       {sin_theta * std::cos(k * step), sin_theta * std::sin(k * step), 1 - v})) *
+                   step;
         return sum;
     });
 }

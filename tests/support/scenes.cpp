@@ -12,7 +12,8 @@ Lights thirty_lights_one_dark()
         const double distance = uniforms.between(2, 9), radius = uniforms.log_between(1e-3, 1);
         const Vec3<double> radiance{uniforms.log_between(0.1, 100), uniforms.log_between(0.1, 100),
                                     uniforms.log_between(0.1, 100)};
-        lights.push_back(make_light(uniforms.direction() * distance, radius, j == 6 ? Vec3<double>(0) : radiance));
+        lights.push_back(make_light(uniforms.direction() * distance, radius,
+                                    j == 6 ? Vec3<double>(0) : radiance));
     }
     return lights;
 }
@@ -20,14 +21,23 @@ Lights thirty_lights_one_dark()
 ShadingPoint point_facing_up()
 {
     const Vec3<double> wo = normalized(Vec3<double>{0.6, 0.7, 0.2});
-    return {.x = {0, 0, 0}, .n = {0, 1, 0}, .wo = vec_cast<float>(wo), .ray_origin = {0, 0, 0}, .id = 3};
+    return {.x = {0, 0, 0},
+            .n = {0, 1, 0},
+            .wo = vec_cast<float>(wo),
+            .ray_origin = {0, 0, 0},
+            .id = 3};
 }
 
 namespace {
 
-Material two_lobes(std::string_view type, Vec3<double> diffuse, Vec3<double> specular, double exponent, double alpha)
+Material two_lobes(std::string_view type, Vec3<double> diffuse, Vec3<double> specular,
+                   double exponent, double alpha)
 {
-    return {.type = std::string(type), .diffuse = diffuse, .specular = specular, .exponent = exponent, .alpha = alpha};
+    return {.type = std::string(type),
+            .diffuse = diffuse,
+            .specular = specular,
+            .exponent = exponent,
+            .alpha = alpha};
 }
 
 }  // namespace
@@ -35,7 +45,8 @@ Material two_lobes(std::string_view type, Vec3<double> diffuse, Vec3<double> spe
 std::vector<Material> materials_of(std::string_view type)
 {
     const Vec3<double> black(0), some(0.3), much(0.6), reddish{0.7, 0.3, 0.1};
-    if (type == "lambert") return {two_lobes(type, much, black, 0, 0), two_lobes(type, reddish, black, 0, 0)};
+    if (type == "lambert")
+        return {two_lobes(type, much, black, 0, 0), two_lobes(type, reddish, black, 0, 0)};
     std::vector<Material> list;
     if (type == "ggx") {
         for (const double alpha : {1.0, 0.3, 0.05, 1e-4}) {
@@ -63,7 +74,8 @@ Lights three_lights_apart()
 Lights eclipse()
 {
     const Vec3<double> axis = normalized(Vec3<double>{1, 3, 0.5});
-    return {make_light(axis * 6.0, 1.5, Vec3<double>(2)), make_light(axis * 2.5, 0.3, Vec3<double>(5)),
+    return {make_light(axis * 6.0, 1.5, Vec3<double>(2)),
+            make_light(axis * 2.5, 0.3, Vec3<double>(5)),
             make_light({-2, 2, 0}, 0.4, Vec3<double>(3))};
 }
 

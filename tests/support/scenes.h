@@ -16,7 +16,8 @@ Lights thirty_lights_one_dark();
 /// At the origin, normal +y, seen from above at an angle.
 ShadingPoint point_facing_up();
 
-/// Materials of a type that tests of every BSDF go through: ordinary ones, coloured ones, and the ends of each range.
+/// Materials of a type that tests of every BSDF go through: ordinary ones, coloured ones, and the
+/// ends of each range.
 std::vector<Material> materials_of(std::string_view type);
 
 /// Three lights above the horizon, none before another; one is coloured.
@@ -31,11 +32,14 @@ Scene probe_under(const Lights& lights, const Material& material);
 /// White, of albedo ½.
 Material grey_floor();
 
-/// Irradiance from a whole unoccluded sphere above the horizon: π sin²θ_max cos β · L = π r² L cos β/d².
+/// Irradiance from a whole unoccluded sphere above the horizon: π sin²θ_max cos β · L = π r² L cos
+/// β/d².
 Vec3<double> irradiance(const Light& light, const Vec3<double>& x, const Vec3<double>& n);
 
-/// ∫ f cos θ L over the lights' caps by quadrature, where no cap overlaps another and all are above the horizon.
-template <class B> Vec3<double> direct_radiance(const B& bsdf, const Lights& lights, const ShadingPoint& point);
+/// ∫ f cos θ L over the lights' caps by quadrature, where no cap overlaps another and all are above
+/// the horizon.
+template <class B>
+Vec3<double> direct_radiance(const B& bsdf, const Lights& lights, const ShadingPoint& point);
 
 }  // namespace mis
 
@@ -45,7 +49,8 @@ template <class B> Vec3<double> direct_radiance(const B& bsdf, const Lights& lig
 
 namespace mis {
 
-template <class B> Vec3<double> direct_radiance(const B& bsdf, const Lights& lights, const ShadingPoint& point)
+template <class B>
+Vec3<double> direct_radiance(const B& bsdf, const Lights& lights, const ShadingPoint& point)
 {
     const Frame<double> frame = frame_around(vec_cast<double>(point.n));
     const Vec3<double> wo = frame.to_local(vec_cast<double>(point.wo));

@@ -17,12 +17,17 @@ template <class... Ts> struct AsTypes<TypeList<Ts...>> {
 template <class List> using TestedTypes = typename AsTypes<List>::type;
 
 /// Those types of a list for which Keep<T>::value is true.
-template <class... As, class... Bs> TypeList<As..., Bs...> operator+(TypeList<As...>, TypeList<Bs...>) { return {}; }
+template <class... As, class... Bs>
+TypeList<As..., Bs...> operator+(TypeList<As...>, TypeList<Bs...>)
+{
+    return {};
+}
 template <template <class> class Keep, class... Ts> auto filtered(TypeList<Ts...>)
 {
     return (TypeList<>{} + ... + std::conditional_t<Keep<Ts>::value, TypeList<Ts>, TypeList<>>{});
 }
-template <class List, template <class> class Keep> using Filtered = decltype(filtered<Keep>(List{}));
+template <class List, template <class> class Keep>
+using Filtered = decltype(filtered<Keep>(List{}));
 
 /// An instance is called by the name it registered.
 struct RegisteredName {

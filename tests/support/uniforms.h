@@ -18,11 +18,15 @@ public:
     double log_between(double low, double high) { return low * std::pow(high / low, (*this)()); }
     int below(int n) { return static_cast<int>((*this)() * n); }
     Vec2<double> pair() { return {between(0, 1), between(0, 1)}; }
-    Vec3<double> in_box(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+    Vec3<double> in_box(double half)
+    {
+        return {between(-half, half), between(-half, half), between(-half, half)};
+    }
     /// Uniform over the sphere.
     Vec3<double> direction()
     {
-        const double z = between(-1, 1), phi = between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
+        const double z = between(-1, 1), phi = between(0, 2 * std::numbers::pi),
+                     r = std::sqrt(1 - z * z);
         return {r * std::cos(phi), r * std::sin(phi), z};
     }
 

@@ -17,11 +17,15 @@
 namespace mis {
 namespace {
 
-template <class K> struct ChoosesLight : std::bool_constant<K::chooses_light> {};
-template <class K> struct ChoosesNoLight : std::bool_constant<!K::chooses_light> {};
+template <class K> struct ChoosesLight : std::bool_constant<K::chooses_light> {
+};
+template <class K> struct ChoosesNoLight : std::bool_constant<!K::chooses_light> {
+};
 
-template <class K> class EveryLightTechnique : public testing::Test {};
-template <class K> class EveryDirectionTechnique : public testing::Test {};
+template <class K> class EveryLightTechnique : public testing::Test {
+};
+template <class K> class EveryDirectionTechnique : public testing::Test {
+};
 using LightTechniques = TestedTypes<Filtered<Techniques, ChoosesLight>>;
 using DirectionTechniques = TestedTypes<Filtered<Techniques, ChoosesNoLight>>;
 TYPED_TEST_SUITE(EveryLightTechnique, LightTechniques, RegisteredName);
@@ -37,7 +41,8 @@ Cap<double> some_cap(double theta)
 }
 const Vec3<double> n{0, 0, 1};
 
-/// χ² of draws in the cap against the technique's density there, on equal cells of 1 − cos θ and azimuth.
+/// χ² of draws in the cap against the technique's density there, on equal cells of 1 − cos θ and
+/// azimuth.
 template <class K> void expect_draws_follow_density_in_cap(double theta)
 {
     constexpr int side = 16, steps = 16;  // cells, and steps of the quadrature in each, either way
@@ -48,18 +53,21 @@ template <class K> void expect_draws_follow_density_in_cap(double theta)
     std::vector<double> expected(side * side), observed(side * side);
     for (int a = 0; a < side * steps; ++a)
         for (int b = 0; b < side * steps; ++b) {
-            const double v = (a + 0.5) / (side * steps) * whole, phi = 2 * std::numbers::pi * (b + 0.5) / (side * steps);
+            const double v = (a + 0.5) / (side * steps) * whole,
+                         phi = 2 * std::numbers::pi * (b + 0.5) / (side * steps);
             const double s = std::sqrt(v * (2 - v));
             const Vec3<double> w = frame.to_world({s * std::cos(phi), s * std::sin(phi), 1 - v});
             const double measure = cap.solid_angle() / (side * steps * side * steps);
-            expected[static_cast<std::size_t>(a / steps * side + b / steps)] += draws * measure * K::pdf(cap, n, dot(n, w));
+            expected[static_cast<std::size_t>(a / steps * side + b / steps)] +=
+                draws * measure * K::pdf(cap, n, dot(n, w));
         }
     Uniforms uniforms(41);
     for (int i = 0; i < draws; ++i) {
         const Vec3<double> offset = frame.to_local(K::draw(cap, n, uniforms.pair()).offset);
         const double turn = std::atan2(offset.y, offset.x) / (2 * std::numbers::pi);
         const int ring = std::min(static_cast<int>(length2(offset) / 2 / whole * side), side - 1);
-        const int sector = std::min(static_cast<int>((turn < 0 ? turn + 1 : turn) * side), side - 1);
+        const int sector =
+            std::min(static_cast<int>((turn < 0 ? turn + 1 : turn) * side), side - 1);
         ++observed[static_cast<std::size_t>(ring * side + sector)];
     }
     EXPECT_GT(chi2_p_value(observed, expected), false_alarm) << theta;
@@ -71,12 +79,15 @@ template <class K, class T> void expect_density_is_the_draws()
     Uniforms uniforms(42);
     for (int i = 0; i < 5000; ++i) {
         const double theta = uniforms.log_between(1e-6, 1.4);
-        const Cap<T> cap = cap_towards(vec_cast<T>(some_cap(theta).axis * 5.0), static_cast<T>(5 * std::sin(theta)),
+        const Cap<T> cap = cap_towards(vec_cast<T>(some_cap(theta).axis * 5.0),
+                                       static_cast<T>(5 * std::sin(theta)),
                                        static_cast<T>(25 * std::cos(theta) * std::cos(theta)));
         const Vec2<double> u = uniforms.pair();
-        const CapDraw<T> draw = K::draw(cap, vec_cast<T>(n), Vec2<T>{static_cast<T>(u.x), static_cast<T>(u.y)});
+        const CapDraw<T> draw =
+            K::draw(cap, vec_cast<T>(n), Vec2<T>{static_cast<T>(u.x), static_cast<T>(u.y)});
         const T cos_theta = draw.wi.z;
-        const double inverse = static_cast<double>(cap.sin_max) * static_cast<double>(cap.sin_max * draw.inverse_pdf_sin2);
+        const double inverse = static_cast<double>(cap.sin_max) *
+                               static_cast<double>(cap.sin_max * draw.inverse_pdf_sin2);
         ASSERT_NEAR(inverse * static_cast<double>(K::pdf(cap, vec_cast<T>(n), cos_theta)), 1, 1e-5);
     }
 }
@@ -89,8 +100,11 @@ template <class K> void expect_draws_hit_the_sphere()
         const Cap<double> cap = some_cap(uniforms.log_between(1e-6, 1.5));
         const Vec2<double> u = uniforms.pair();
         const CapDraw<double> draw = K::draw(cap, n, u);
-        const double hit = hit_distance(cap.axis * cap.distance, cap.radius, cap.axis + draw.offset);
-        if (u.x < 1 - 1e-9) { ASSERT_NEAR(hit / draw.distance, 1, 1e-6); }
+        const double hit =
+            hit_distance(cap.axis * cap.distance, cap.radius, cap.axis + draw.offset);
+        if (u.x < 1 - 1e-9) {
+            ASSERT_NEAR(hit / draw.distance, 1, 1e-6);
+        }
         ASSERT_GE(draw.distance, cap.distance - cap.radius - 1e-9);
         ASSERT_LE(draw.distance * draw.distance, cap.gap2 * (1 + 1e-9));
     }
@@ -103,8 +117,8 @@ template <class K, class B> void expect_draws_follow_density_over_the_hemisphere
     const Vec3<double> wo = normalized(Vec3<double>{0.3, 0.5, 1});
     const PolarGrid grid(n, 0.3, 8, 8);
     const int draws = scaled(100'000);
-    std::vector<double> expected =
-        grid.integrals([&](const Vec3<double>& wi) { return K::pdf(bsdf.evaluate(wo, wi).pdf, wi); });
+    std::vector<double> expected = grid.integrals(
+        [&](const Vec3<double>& wi) { return K::pdf(bsdf.evaluate(wo, wi).pdf, wi); });
     double lost = 1;
     for (double& e : expected) lost -= e, e *= draws;
     expected.push_back(std::max(0.0, lost) * draws + 1e-3);
@@ -120,7 +134,8 @@ template <class K, class B> void expect_draws_follow_density_over_the_hemisphere
 
 TYPED_TEST(EveryLightTechnique, DrawsFollowItsDensity)
 {
-    for (const double theta : {1e-3, 0.3, 1.0}) expect_draws_follow_density_in_cap<TypeParam>(theta);
+    for (const double theta : {1e-3, 0.3, 1.0})
+        expect_draws_follow_density_in_cap<TypeParam>(theta);
 }
 
 TYPED_TEST(EveryLightTechnique, ADrawHitsItsLightWithTheDensityThatItCarries)
@@ -132,7 +147,9 @@ TYPED_TEST(EveryLightTechnique, ADrawHitsItsLightWithTheDensityThatItCarries)
 
 TYPED_TEST(EveryDirectionTechnique, DrawsFollowItsDensity)
 {
-    for_each_type(Bsdfs{}, []<class B>() { expect_draws_follow_density_over_the_hemisphere<TypeParam, B>(); });
+    for_each_type(Bsdfs{}, []<class B>() {
+        expect_draws_follow_density_over_the_hemisphere<TypeParam, B>();
+    });
 }
 
 }  // namespace

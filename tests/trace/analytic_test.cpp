@@ -11,7 +11,8 @@ namespace {
 Scene three_shapes()
 {
     Scene scene;
-    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, Vec3<double>{10, 0, 0}}}, 4});
+    scene.surfaces.push_back(
+        {Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, Vec3<double>{10, 0, 0}}}, 4});
     scene.surfaces.push_back({SphereSurface{{0, 3, 0}, 1}, 5});
     Mesh mesh;
     mesh.positions = {{3, 1, 0}, {4, 1, 0}, {3, 2, 0}};
@@ -56,10 +57,11 @@ TEST(AnalyticTracer, HidesStrictlyBeforeTheDistance)
 {
     const Scene scene = three_shapes();
     const AnalyticTracer tracer(scene);
-    const std::vector<ShadowRay> rays{{{0, 9, 0}, {0, -1, 0}, 5.01F},
-                                      {{0, 9, 0}, {0, -1, 0}, 4.99F},
-                                      {{0, 9, 0}, {0, -1, 0}, 5.F},
-                                      {{0, 9, 0}, {0, 1, 0}, std::numeric_limits<float>::infinity()}};
+    const std::vector<ShadowRay> rays{
+        {{0, 9, 0}, {0, -1, 0}, 5.01F},
+        {{0, 9, 0}, {0, -1, 0}, 4.99F},
+        {{0, 9, 0}, {0, -1, 0}, 5.F},
+        {{0, 9, 0}, {0, 1, 0}, std::numeric_limits<float>::infinity()}};
     std::vector<std::uint8_t> hidden(rays.size(), 7);
     tracer.occluded(rays, hidden);
     EXPECT_EQ(hidden, (std::vector<std::uint8_t>{1, 0, 0, 0}));
@@ -73,22 +75,26 @@ TEST(HitSphere, KeepsItsDigitsFarAwayAndCloseBy)
     EXPECT_EQ(hit_sphere({0, 0, 1 + 1e-9}, {0, 0, 1}, {0, 0, 0}, 1), no_hit);
 }
 
-/// A ray that starts at x plus its offset misses the surface that x lies on, whichever way it leaves.
+/// A ray that starts at x plus its offset misses the surface that x lies on, whichever way it
+/// leaves.
 TEST(SurfaceOffset, OfAPointOnASurfaceMovesARayOffIt)
 {
     const Scene scene = three_shapes();
     const AnalyticTracer tracer(scene);
-    for (const Vec3<double>& target : {Vec3<double>{1, 0, 2}, Vec3<double>{0, 3, 0}, Vec3<double>{3.2, 1.3, 0}}) {
+    for (const Vec3<double>& target :
+         {Vec3<double>{1, 0, 2}, Vec3<double>{0, 3, 0}, Vec3<double>{3.2, 1.3, 0}}) {
         const Vec3<double> eye{2, 8, 6};
         const auto hit = tracer.first_hit(eye, normalized(target - eye));
         ASSERT_TRUE(hit);
         EXPECT_GT(hit->offset, 0);
         EXPECT_LT(hit->offset, 1e-4);
         EXPECT_NEAR(tracer.offset_at(hit->x), hit->offset, hit->offset);
-        const Vec3<float> origin = vec_cast<float>(hit->x + hit->geometric * hit->offset - tracer.origin());
+        const Vec3<float> origin =
+            vec_cast<float>(hit->x + hit->geometric * hit->offset - tracer.origin());
         const Vec3<double> across = normalized(cross(hit->geometric, Vec3<double>{0.3, 0.4, 0.5}));
         const Vec3<float> grazing = vec_cast<float>(normalized(across + hit->geometric * 1e-6));
-        const std::vector<ShadowRay> rays{{origin, vec_cast<float>(hit->geometric), 0.1F}, {origin, grazing, 0.1F}};
+        const std::vector<ShadowRay> rays{{origin, vec_cast<float>(hit->geometric), 0.1F},
+                                          {origin, grazing, 0.1F}};
         std::vector<std::uint8_t> hidden(2);
         tracer.occluded(rays, hidden);
         EXPECT_EQ(hidden, (std::vector<std::uint8_t>{0, 0}));

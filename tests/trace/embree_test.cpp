@@ -1,4 +1,5 @@
-// Embree against the closed forms, on scenes at random. At an edge the two may differ: there, rays beside differ too.
+// Embree against the closed forms, on scenes at random. At an edge the two may differ: there, rays
+// beside differ too.
 #include "mis/trace/embree.h"
 
 #include "mis/trace/analytic.h"
@@ -18,7 +19,10 @@ Mesh bumpy_mesh(Uniforms& uniforms, const Vec3<double>& center, double size)
     constexpr std::uint32_t side = 6;
     for (std::uint32_t a = 0; a <= side; ++a)
         for (std::uint32_t b = 0; b <= side; ++b)
-            mesh.positions.push_back(center + Vec3<double>{a * 1.0 / side - 0.5, uniforms.between(0, 0.2), b * 1.0 / side - 0.5} * size);
+            mesh.positions.push_back(center + Vec3<double>{a * 1.0 / side - 0.5,
+                                                           uniforms.between(0, 0.2),
+                                                           b * 1.0 / side - 0.5} *
+                                                  size);
     for (std::uint32_t a = 0; a < side; ++a)
         for (std::uint32_t b = 0; b < side; ++b) {
             const std::uint32_t i = a * (side + 1) + b;
@@ -39,7 +43,9 @@ Scene random_scene(unsigned seed, double extent, const Vec3<double>& around)
         const Vec3<double> e1 = uniforms.direction() * extent * 0.5;
         const Vec3<double> e2 = cross(normalized(e1), uniforms.direction()) * extent * 0.5;
         if (i % 3 == 0) scene.surfaces.push_back({Quad{place, {e1, e2}}, i});
-        if (i % 3 == 1) scene.surfaces.push_back({SphereSurface{place, extent * uniforms.between(0.02, 0.3)}, i});
+        if (i % 3 == 1)
+            scene.surfaces.push_back(
+                {SphereSurface{place, extent * uniforms.between(0.02, 0.3)}, i});
         if (i % 3 == 2) scene.surfaces.push_back({bumpy_mesh(uniforms, place, extent * 0.5), i});
     }
     return scene;
@@ -49,17 +55,22 @@ struct Place {
     double extent;
     Vec3<double> around;
 };
-const std::vector<Place> places{{1, Vec3<double>(0)}, {1e-3, Vec3<double>(0)}, {1e4, Vec3<double>(0)}, {1, Vec3<double>(1e6)}};
+const std::vector<Place> places{
+    {1, Vec3<double>(0)}, {1e-3, Vec3<double>(0)}, {1e4, Vec3<double>(0)}, {1, Vec3<double>(1e6)}};
 
-constexpr double edge = 1e-5;  ///< of the extent: nearer to an edge than this, either answer is right
+constexpr double edge =
+    1e-5;  ///< of the extent: nearer to an edge than this, either answer is right
 
 /// The analytic answers to rays beside a ray, `edge` apart at either end.
-template <class Answer> bool answers_differ_around(const Vec3<double>& origin, const Vec3<double>& direction, const Answer& answer)
+template <class Answer>
+bool answers_differ_around(const Vec3<double>& origin, const Vec3<double>& direction,
+                           const Answer& answer)
 {
     Uniforms uniforms(62);
     const auto usual = answer(origin, direction);
     for (int i = 0; i < 60; ++i)
-        if (answer(origin + uniforms.direction() * edge, normalized(direction + uniforms.direction() * edge)) != usual)
+        if (answer(origin + uniforms.direction() * edge,
+                   normalized(direction + uniforms.direction() * edge)) != usual)
             return true;
     return false;
 }
@@ -75,7 +86,8 @@ TEST(EmbreeTracer, HidesWhatTheClosedFormsHide)
         Uniforms uniforms(63);
         std::vector<ShadowRay> rays(static_cast<std::size_t>(scaled(20'000)));
         for (ShadowRay& ray : rays)
-            ray = {vec_cast<float>(uniforms.in_box(place.extent)), vec_cast<float>(uniforms.direction()),
+            ray = {vec_cast<float>(uniforms.in_box(place.extent)),
+                   vec_cast<float>(uniforms.direction()),
                    static_cast<float>(place.extent * uniforms.log_between(0.01, 10))};
         std::vector<std::uint8_t> found(rays.size()), expected(rays.size());
         tracer.occluded(rays, found);
@@ -90,12 +102,15 @@ TEST(EmbreeTracer, HidesWhatTheClosedFormsHide)
                 std::array<std::uint8_t, 2> two{};
                 const double distance = static_cast<double>(rays[i].distance);
                 const std::array<ShadowRay, 2> both{
-                    ShadowRay{vec_cast<float>(o * e), vec_cast<float>(d), static_cast<float>(distance + edge * e)},
-                    ShadowRay{vec_cast<float>(o * e), vec_cast<float>(d), static_cast<float>(distance - edge * e)}};
+                    ShadowRay{vec_cast<float>(o * e), vec_cast<float>(d),
+                              static_cast<float>(distance + edge * e)},
+                    ShadowRay{vec_cast<float>(o * e), vec_cast<float>(d),
+                              static_cast<float>(distance - edge * e)}};
                 exact.occluded(both, two);
                 return two[0] != two[1] ? 2 : int{two[0]};
             };
-            const Vec3<double> o = vec_cast<double>(rays[i].origin) / e, d = vec_cast<double>(rays[i].direction);
+            const Vec3<double> o = vec_cast<double>(rays[i].origin) / e,
+                               d = vec_cast<double>(rays[i].direction);
             EXPECT_TRUE(unit_answer(o, d) == 2 || answers_differ_around(o, d, unit_answer))
                 << "extent " << e << ", ray " << i << ": found " << int{found[i]};
         }
@@ -120,22 +135,31 @@ TEST(EmbreeTracer, MeetsWhatTheClosedFormsMeet)
             const Vec3<double> o = uniforms.in_box(2), d = normalized(uniforms.in_box(1) - o);
             const Vec3<double> origin = place.around + o * place.extent;
             const auto found = tracer.first_hit(origin, d), expected = exact.first_hit(origin, d);
-            if (found.has_value() != expected.has_value() || (found && found->material != expected->material)) {
-                EXPECT_TRUE(answers_differ_around(o, d, material_at)) << "extent " << place.extent << ", ray " << i;
+            if (found.has_value() != expected.has_value() ||
+                (found && found->material != expected->material)) {
+                EXPECT_TRUE(answers_differ_around(o, d, material_at))
+                    << "extent " << place.extent << ", ray " << i;
                 continue;
             }
             if (!found) continue;
             ++met;
-            // The hit is computed in double: only at the edge between two triangles is another plane the nearer one.
-            const bool same = std::abs(found->distance - expected->distance) <= 1e-9 * expected->distance;
-            EXPECT_TRUE(same || std::abs(found->distance - expected->distance) <= 20 * edge * place.extent);
-            if (same) { EXPECT_LT(length(found->x - expected->x), 1e-8 * place.extent + 1e-9 * length(place.around)); }
+            // The hit is computed in double: only at the edge between two triangles is another
+            // plane the nearer one.
+            const bool same =
+                std::abs(found->distance - expected->distance) <= 1e-9 * expected->distance;
+            EXPECT_TRUE(same ||
+                        std::abs(found->distance - expected->distance) <= 20 * edge * place.extent);
+            if (same) {
+                EXPECT_LT(length(found->x - expected->x),
+                          1e-8 * place.extent + 1e-9 * length(place.around));
+            }
         }
     }
     EXPECT_GT(met, scaled(10'000)) << "too few to say anything";
 }
 
-/// From every hit, moved off its surface as told, rays along the surface and away from it do not meet it again.
+/// From every hit, moved off its surface as told, rays along the surface and away from it do not
+/// meet it again.
 TEST(EmbreeTracer, ARayMovedOffItsSurfaceMissesIt)
 {
     int again = 0, rays_in_all = 0;
@@ -151,12 +175,14 @@ TEST(EmbreeTracer, ARayMovedOffItsSurfaceMissesIt)
                 const Vec3<double> target = place.around + uniforms.in_box(place.extent);
                 const auto hit = tracer.first_hit(eye, normalized(target - eye));
                 if (!hit) continue;
-                const Vec3<float> origin = vec_cast<float>(hit->x + hit->geometric * hit->offset - tracer.origin());
+                const Vec3<float> origin =
+                    vec_cast<float>(hit->x + hit->geometric * hit->offset - tracer.origin());
                 Vec3<double> away = uniforms.direction();
-                away = i % 2 == 0 ? away * 1.0 : normalized(cross(away, hit->geometric) + hit->geometric * 1e-7);
+                away = i % 2 == 0 ? away * 1.0
+                                  : normalized(cross(away, hit->geometric) + hit->geometric * 1e-7);
                 if (dot(away, hit->geometric) < 0) away = -away;
-                const std::array<ShadowRay, 1> ray{
-                    ShadowRay{origin, vec_cast<float>(away), std::numeric_limits<float>::infinity()}};
+                const std::array<ShadowRay, 1> ray{ShadowRay{
+                    origin, vec_cast<float>(away), std::numeric_limits<float>::infinity()}};
                 std::array<std::uint8_t, 1> hidden{};
                 tracer.occluded(ray, hidden);
                 again += hidden[0], ++rays_in_all;

@@ -1,0 +1,113 @@
+#include "mis/cli/predict.h"
+
+#include "mis/cli/interrupt.h"
+#include "mis/cli/progress.h"
+#include "mis/cli/strategy_list.h"
+#include "mis/io/atomic_file.h"
+#include "mis/io/predict_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mis::cli {
+
+namespace {
+
+/// The figures of a probe, or why there are none.
+PredictReport::Probe predicted(const Scene& scene, const Probe& probe,
+                               const std::vector<Strategy>& strategies,
+                               const PredictTolerance& tolerance)
+{
+    if (interrupt_flag()) return {.figures = {}, .refusal = "interrupted"};
+    try {
+        return {.figures = predict(scene, probe, strategies, tolerance), .refusal = {}};
+    } catch (const PredictError& error) {
+        return {.figures = {}, .refusal = error.what()};
+    }
+}
+
+PredictReport::Scene predicted_scene(const Scene& scene, const StrategySelection& selection,
+                                     const AnyExecutor& executor, const PredictTolerance& tolerance,
+                                     bool quiet)
+{
+    PredictReport::Scene result{.file = scene.file,
+                                .name = scene.name,
+                                .lights = scene.lights.size(),
+                                .strategies = selection.strategies,
+                                .probes = std::vector<PredictReport::Probe>(scene.probes.size())};
+    Progress progress(!quiet);
+    progress.show("integrating", 0);
+    executor.for_each(scene.probes.size(), [&](std::size_t p) {
+        result.probes[p] = predicted(scene, scene.probes[p], selection.strategies, tolerance);
+    });
+    return result;
+}
+
+}  // namespace
+
+void add_predict(CLI::App& app, PredictOptions& options)
+{
+    CLI::App& c = *app.add_subcommand(
+        "predict",
+        "exact mean and variance of every strategy at a scene's probes, without random numbers");
+    c.add_option("scene", options.scene, "scene file with probes")->required()->type_name("SCENE");
+    c.add_option("--policy", options.policies, "light-choice policies, separated by commas")
+        ->type_name("LIST");
+    c.add_option("--heuristic", options.heuristics, "heuristics")->type_name("LIST");
+    c.add_option("--technique", options.techniques, "techniques of the light draw")
+        ->type_name("LIST");
+    c.add_option("--model", options.models, "multi, one-sample")->type_name("LIST");
+    c.add_option("--strategy", options.strategies, "strategies by name; with it alone, just these")
+        ->type_name("LIST");
+    c.add_option("--threads", options.threads, "threads to run on (0: as many as the machine has)");
+    c.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
+    add_output_options(c, options.output);
+    c.footer(
+        "Each figure stands with a bound of its error. Lights hide one another, spheres among the "
+        "surfaces hide\n"
+        "lights; meshes and quads must provably hide none.\n\nExamples:\n"
+        "  mis predict scenes/eclipse.json\n"
+        "  mis predict scenes/eclipse.json --strategy power/light,power/power/union,brdf\n"
+        "  mis predict scenes/overlap.json --policy all --heuristic cutoff,maximum --json -");
+}
+
+int run_predict(const PredictOptions& options)
+{
+    const StrategySelection selection =
+        select_strategies({options.policies, options.heuristics, options.techniques, options.models,
+                           options.strategies});
+    if (options.output.json == "-" && options.output.csv == "-")
+        throw UsageError("--json and --csv: found - for both; standard output holds one of them");
+    RunOptions run;
+    run.threads = options.threads;
+    const AnyExecutor executor = make_executor(run);
+    const Scene scene = read_scene_for(options.scene, run);
+    if (scene.probes.empty())
+        throw UsageError(options.scene +
+                         ": found no probes; predict answers at probes alone\n"
+                         "    Add \"probes\" to the scene (docs/scene-format.md).");
+    if (!options.quiet)
+        for (const std::string& reason : selection.left_out)
+            fmt::print(stderr, "left out: {}\n", reason);
+    watch_for_interrupt();
+    PredictReport report{
+        .version = MIS_VERSION, .command = options.command_line, .threads = executor.threads};
+    report.scenes.push_back(
+        predicted_scene(scene, selection, executor, report.tolerance, options.quiet));
+    report.partial = interrupt_flag();
+    const PredictReport::Scene& found = report.scenes.front();
+    if (options.output.json != "-" && options.output.csv != "-")
+        write_text("-", fmt::format("{}: {} probes, {} lights\n\n{}",
+                                    found.name.empty() ? found.file : found.name,
+                                    found.probes.size(), found.lights, predict_text(found)));
+    if (!options.output.json.empty()) write_text(options.output.json, predict_json(report));
+    if (!options.output.csv.empty()) write_text(options.output.csv, predict_csv(report));
+    if (report.partial) return interrupted;
+    return std::ranges::any_of(found.probes,
+                               [](const auto& probe) { return !probe.refusal.empty(); })
+               ? failed
+               : ok;
+}
+
+}  // namespace mis::cli

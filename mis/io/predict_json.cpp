@@ -1,0 +1,144 @@
+#include "mis/io/predict_json.h"
+
+#include "mis/io/text_layout.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace mis {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Figure {
+    const char* name;
+    double Predicted::*value;
+    double Predicted::*error;
+};
+constexpr std::array figures{Figure{"mean", &Predicted::mean, &Predicted::mean_error},
+                             Figure{"variance", &Predicted::variance, &Predicted::variance_error},
+                             Figure{"fourth", &Predicted::fourth, &Predicted::fourth_error}};
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json probe_json(const PredictReport::Probe& probe, std::size_t strategy)
+{
+    Json json;
+    for (const auto& [name, value, error] : figures) {
+        if (!probe.refusal.empty()) json[name] = {{"value", nullptr}, {"error", nullptr}};
+        else
+            json[name] = {{"value", number(probe.figures[strategy].*value)},
+                          {"error", number(probe.figures[strategy].*error)}};
+    }
+    json["refusal"] = text_or_null(probe.refusal);
+    return json;
+}
+
+Json strategy_json(const PredictReport::Scene& scene, std::size_t i)
+{
+    const Strategy& s = scene.strategies[i];
+    Json json{{"name", name_of(s)},
+              {"policy", text_or_null(s.policy)},
+              {"heuristic", text_or_null(s.heuristic)},
+              {"technique", s.technique},
+              {"model", s.model == Model::multi ? "multi" : "one-sample"},
+              {"counts", s.chooses_light() ? Json(s.counts) : Json{0, 1}},
+              {"probes", Json::array()}};
+    for (const PredictReport::Probe& probe : scene.probes)
+        json["probes"].push_back(probe_json(probe, i));
+    return json;
+}
+
+/// RFC 4180: quoted where needed, a quote doubled.
+std::string field(const std::string& text)
+{
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = "\"";
+    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + '"';
+}
+std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+/// Ten places at most.
+std::string shown(double value)
+{
+    return std::isfinite(value) ? fmt::format("{:.7g}", value) : "infinite";
+}
+std::string shown_error(double error)
+{
+    return std::isfinite(error) ? fmt::format("±{:.1e}", error) : "";
+}
+
+}  // namespace
+
+std::string predict_json(const PredictReport& report)
+{
+    Json json{
+        {"format", "mis-predict/1"},
+        {"version", report.version},
+        {"command", report.command},
+        {"threads", report.threads},
+        {"partial", report.partial},
+        {"tolerance", {{"smooth", report.tolerance.smooth}, {"jumps", report.tolerance.jumps}}},
+        {"scenes", Json::array()}};
+    for (const PredictReport::Scene& scene : report.scenes) {
+        Json strategies = Json::array();
+        for (std::size_t i = 0; i < scene.strategies.size(); ++i)
+            strategies.push_back(strategy_json(scene, i));
+        json["scenes"].push_back({{"file", scene.file},
+                                  {"name", scene.name},
+                                  {"lights", scene.lights},
+                                  {"strategies", strategies}});
+    }
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string predict_csv(const PredictReport& report)
+{
+    std::string csv = "scene,file,probe,strategy";
+    for (const Figure& figure : figures) csv += fmt::format(",{0},{0}_error", figure.name);
+    csv += ",refusal\r\n";
+    for (const PredictReport::Scene& scene : report.scenes)
+        for (std::size_t p = 0; p < scene.probes.size(); ++p)
+            for (std::size_t i = 0; i < scene.strategies.size(); ++i) {
+                const PredictReport::Probe& probe = scene.probes[p];
+                csv += fmt::format("{},{},{},{}", field(scene.name), field(scene.file), p,
+                                   field(name_of(scene.strategies[i])));
+                for (const auto& [name, value, error] : figures)
+                    csv += probe.refusal.empty() ? "," + field(probe.figures[i].*value) + "," +
+                                                       field(probe.figures[i].*error)
+                                                 : std::string(",,");
+                csv += "," + field(probe.refusal) + "\r\n";
+            }
+    return csv;
+}
+
+std::string predict_text(const PredictReport::Scene& scene)
+{
+    TextTable table({{"probe", "strategy", "mean", "error", "variance", "error"}});
+    for (std::size_t p = 0; p < scene.probes.size(); ++p) {
+        const PredictReport::Probe& probe = scene.probes[p];
+        if (!probe.refusal.empty()) {
+            table.add_remark(fmt::format("{}", p), "-", "none: see below");
+            continue;
+        }
+        for (std::size_t i = 0; i < scene.strategies.size(); ++i) {
+            const Predicted& f = probe.figures[i];
+            table.add({fmt::format("{}", p), name_of(scene.strategies[i]), shown(f.mean),
+                       shown_error(f.mean_error), shown(f.variance),
+                       shown_error(f.variance_error)});
+        }
+    }
+    std::string text = table.text();
+    for (std::size_t p = 0; p < scene.probes.size(); ++p)
+        if (!scene.probes[p].refusal.empty())
+            text += fmt::format("probe {}: {}\n", p, scene.probes[p].refusal);
+    return text;
+}
+
+}  // namespace mis

@@ -1,0 +1,169 @@
+#include "mis/compare/study.h"
+
+#include "mis/compare/audit.h"
+#include "mis/run/serial.h"
+#include "mis/run/tbb.h"
+#include "mis/trace/analytic.h"
+
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mis {
+namespace {
+
+/// A small picture of a floor with a blocker under three lights, and a probe.
+Scene small_picture()
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {40, 24}};
+    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
+    scene.surfaces.push_back({SphereSurface{{0.5, 0.6, 0.5}, 0.3}, 0});
+    return scene;
+}
+
+std::vector<Strategy> named(std::initializer_list<const char*> names)
+{
+    std::vector<Strategy> strategies;
+    for (const char* name : names) strategies.push_back(parse_strategy(name));
+    return strategies;
+}
+
+Study study_of(const Scene& scene, const std::vector<Strategy>& strategies,
+               const StudyOptions& options,
+               const AnyExecutor& executor = any_executor(SerialExecutor{}))
+{
+    const AnalyticTracer tracer(scene);
+    const LitScene lit(scene, &tracer, called_for(scene));
+    return run_study(lit, strategies, options, executor);
+}
+
+TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
+{
+    const Scene scene = small_picture();
+    const auto strategies =
+        named({"uniform/power", "solid-angle/balance", "all/light", "brdf", "power/light/union"});
+    const StudyOptions options{.spp = 37};
+    const Study one = study_of(scene, strategies, options);
+    ASSERT_GT(one.report.shading_points, 500U);
+    for (const int threads : {2, 3}) {
+        const Study other =
+            study_of(scene, strategies, options, any_executor(TbbExecutor(threads)));
+        for (std::size_t s = 0; s < strategies.size(); ++s) {
+            const StrategyReport &a = one.report.strategies[s], &b = other.report.strategies[s];
+            EXPECT_EQ(a.samples, b.samples);
+            EXPECT_EQ(a.mean, b.mean) << name_of(strategies[s]);
+            EXPECT_EQ(a.variance.value, b.variance.value);
+            EXPECT_EQ(a.relative_variance.value, b.relative_variance.value);
+            EXPECT_EQ(a.rays_per_sample, b.rays_per_sample);
+            EXPECT_EQ(a.probes[0].mean, b.probes[0].mean);
+            EXPECT_EQ(a.status, b.status);
+        }
+    }
+}
+
+TEST(Study, TakesEverySampleThatWasAskedFor)
+{
+    for (const std::uint64_t spp : {4, 5, 37, 64, 100}) {
+        const Study study = study_of(small_picture(), named({"uniform/power"}), {.spp = spp});
+        EXPECT_EQ(study.report.strategies[0].samples, spp * study.points->figure_lit);
+        for (const PointResult& result : study.runs[0]->results())
+            ASSERT_EQ(result.luminance.count, spp);
+    }
+}
+
+TEST(Study, ListsProbesApartFromThePicture)
+{
+    const Study study = study_of(small_picture(), named({"uniform/power"}), {.spp = 64});
+    ASSERT_EQ(study.report.strategies[0].probes.size(), 1U);
+    EXPECT_EQ(study.points->figure_points + study.points->shading.background.size(), 40U * 24U);
+    EXPECT_GT(study.report.strategies[0].probes[0].mean, 0);
+}
+
+TEST(Study, LeavesOutWhatIsPastTheBudget)
+{
+    Scene scene = probe_under(thirty_lights_one_dark(), grey_floor());
+    while (scene.lights.size() < 100'000)
+        scene.lights.push_back(scene.lights[scene.lights.size() % 30]);
+    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {32, 32}};
+    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
+    const Study study = study_of(scene, named({"all/light", "power/light"}), {.seconds = 0.5});
+    EXPECT_EQ(study.report.strategies[0].status, Status::not_run);
+    EXPECT_GT(study.report.strategies[0].estimated_seconds, 0.5);
+    EXPECT_NE(study.report.strategies[1].status, Status::not_run);
+}
+
+TEST(Study, OfBlackLightsIsExact)
+{
+    Scene scene = small_picture();
+    for (Light& light : scene.lights) light.radiance_radius = Vec3<float>(0.0F);
+    const Study study = study_of(scene, named({"uniform/power", "power/light"}), {.spp = 32});
+    for (const StrategyReport& s : study.report.strategies) {
+        EXPECT_TRUE(s.exact) << name_of(s.strategy) << ": " << s.reason;
+        EXPECT_EQ(s.mean, 0);
+    }
+}
+
+TEST(Study, StopsBetweenStrategiesAndSaysThatItIsPartial)
+{
+    const std::atomic<bool> stop{true};
+    const Study study =
+        study_of(small_picture(), named({"uniform/power"}), {.spp = 64, .stop = &stop});
+    EXPECT_TRUE(study.report.partial);
+}
+
+/// The audit and a strategy's own samples are two estimates of one variance.
+TEST(Audit, FindsTheVarianceThatOwnSamplesShow)
+{
+    constexpr double false_alarm = 1e-6;  // for all strategies together
+    const Scene scene = small_picture();
+    const auto strategies =
+        named({"uniform/light", "power/light", "solid-angle/balance", "power/power", "brdf",
+               "cosine", "uniform/power/union", "power/balance/one-sample", "uniform/balance@3+2",
+               "solid-angle/cutoff", "uniform/maximum"});
+    const AnalyticTracer tracer(scene);
+    const LitScene lit(scene, &tracer, called_for(scene));
+    const AnyExecutor serial = any_executor(SerialExecutor{});
+    const Study study =
+        run_study(lit, strategies, {.spp = static_cast<std::uint64_t>(scaled(2048))}, serial);
+    std::vector<AuditPoint> at;
+    const std::vector<std::size_t> points = spread_points(*study.points, 200);
+    for (const std::size_t p : points) at.push_back({study.points->shading.points[p], 0});
+    const std::vector<AuditEstimate> found = audit(lit, at, strategies, 5, serial);
+    const double bound =
+        1.5 * z_bound(false_alarm, static_cast<int>(strategies.size()));  // errors from 8 groups
+    for (std::size_t s = 0; s < strategies.size(); ++s) {
+        double own = 0, own_se2 = 0;
+        for (const std::size_t p : points) {
+            own += study.runs[s]->results()[p].luminance.variance();
+            own_se2 += std::pow(study.runs[s]->results()[p].luminance.variance_se(), 2);
+        }
+        const double n = static_cast<double>(points.size());
+        const double se =
+            std::sqrt(own_se2 / (n * n) + found[s].variance_se * found[s].variance_se);
+        ASSERT_TRUE(found[s].available);
+        EXPECT_NEAR(found[s].variance, own / n, bound * se) << name_of(strategies[s]);
+        EXPECT_LT(se, 0.3 * own / n) << name_of(strategies[s]);  // so that the test can fail
+    }
+}
+
+TEST(Audit, SeesWhatAStrategyNeverDraws)
+{
+    // Two dim lights, and between them one of a millionth of their solid angle that outshines both.
+    const Scene scene = probe_under({make_light({2, 3, 0}, 0.5, Vec3<double>(10)),
+                                     make_light({-2, 3, 1}, 0.4, Vec3<double>(10)),
+                                     make_light({0, 3, 0}, 1e-4, Vec3<double>(1e9))},
+                                    grey_floor());
+    const auto strategies = named({"solid-angle/light", "power/light"});
+    const Study study = study_of(scene, strategies, {.spp = 4096});
+    EXPECT_EQ(study.report.strategies[0].status, Status::not_resolved)
+        << study.report.strategies[0].variance.value;
+    EXPECT_NE(study.report.strategies[1].status, Status::not_resolved)
+        << study.report.strategies[1].reason;
+}
+
+}  // namespace
+}  // namespace mis
