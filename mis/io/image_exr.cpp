@@ -1,8 +1,9 @@
 #include "mis/io/image_exr.h"
 
 #include "mis/io/atomic_file.h"
+#include "mis/io/image_exr_module.h"
 
-#include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 
 namespace mis {
 
@@ -13,23 +14,26 @@ namespace {
     throw WriteError(file.string() + ": cannot be written: " + reason);
 }
 
+/// The module's only function; the module stays loaded. Null where it is not found: dlerror() says
+/// why.
+WriteExrPixels* open_module()
+{
+    void* module = dlopen(MIS_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
+    if (!module) module = dlopen(MIS_MODULE_DIR "/" MIS_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
+    return module ? reinterpret_cast<WriteExrPixels*>(dlsym(module, "mis_write_exr_pixels"))
+                  : nullptr;
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& file, const Image& image,
                const std::map<std::string, std::string>& metadata)
 {
     AtomicFile whole(file.string());
-    const auto output = OIIO::ImageOutput::create("openexr");
-    if (!output) fail(file, OIIO::geterror());
-    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    for (const auto& [key, value] : metadata) spec.attribute(key, value);
-    if (!output->open(whole.temporary_path(), spec)) fail(file, output->geterror());
-    static_assert(sizeof(Vec3<float>) == 3 * sizeof(float));
-    if (!output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data()))
-        fail(file, output->geterror());
-    if (!output->close()) fail(file, output->geterror());
+    static WriteExrPixels* const write_pixels = open_module();
+    if (!write_pixels) fail(file, dlerror());
+    const std::string reason = write_pixels(whole.temporary_path(), image, metadata);
+    if (!reason.empty()) fail(file, reason);
     whole.commit();
 }
 

@@ -32,7 +32,9 @@ MIS_INLINE T hit_distance(const Vec3<T>& to_center, const T& radius, const Vec3<
 template <class T>
 MIS_INLINE auto meets_sphere(const Vec3<T>& to_center, const T& radius, const Vec3<T>& wi)
 {
-    return (length2(cross(to_center, wi)) <= radius * radius) & (dot(to_center, wi) > number<T>(0));
+    const auto is_near = length2(cross(to_center, wi)) <= radius * radius;
+    const auto is_ahead = dot(to_center, wi) > number<T>(0);
+    return is_near & is_ahead;
 }
 
 }  // namespace mis

@@ -11,10 +11,10 @@ namespace {
 /// The near hit in long double, from the impact parameter.
 long double exact_distance(const Vec3<double>& c, double radius, const Vec3<double>& wi)
 {
-    const long double x = c.x, y = c.y, z = c.z, a = wi.x, b = wi.y, e = wi.z, r = radius;
-    const long double along = x * a + y * b + z * e;
-    const long double q2 = (y * e - z * b) * (y * e - z * b) + (z * a - x * e) * (z * a - x * e) +
-                           (x * b - y * a) * (x * b - y * a);
+    using Long = glm::vec<3, long double>;
+    const Long center = vec_cast<long double>(c), direction = vec_cast<long double>(wi);
+    const long double r = static_cast<long double>(radius);
+    const long double along = dot(center, direction), q2 = length2(cross(center, direction));
     return along - std::sqrt(r * r - q2);
 }
 
