@@ -67,6 +67,17 @@ private:
         return all;
     }
 
+    /// Is some probability positive, and none but where `counts` is true?
+    static bool only_where(const std::vector<bool>& counts, const std::vector<double>& probability)
+    {
+        bool any = false;
+        for (std::size_t j = 0; j < counts.size(); ++j) {
+            if (probability[j] > 0 && !counts[j]) return false;
+            any = any || probability[j] > 0;
+        }
+        return any;
+    }
+
     /// Takes the means as shifts where every draw counts.
     void shift_by(const std::vector<StrategyMoments>& moments)
     {
@@ -83,16 +94,7 @@ private:
                     if (counts[j]) light[j].shift = moments[s].light[j].sums.value[0];
                 continue;
             }
-            bool all = false;
-            for (std::size_t j = 0; j < p.size(); ++j) {
-                if (!(p[j] > 0)) continue;
-                all = true;
-                if (!counts[j]) {
-                    all = false;
-                    break;
-                }
-            }
-            if (all) light.front().shift = moments[s].light.front().sums.value[0];
+            if (only_where(counts, p)) light.front().shift = moments[s].light.front().sums.value[0];
         }
     }
 
@@ -114,15 +116,15 @@ private:
     std::array<double, 4> tolerance_of(const DrawMoments& draw, const Figures& f) const
     {
         const auto& [s1, s2, s3, s4] = draw.sums.value;
-        const double floor = std::max(1e-13, 16 * rounding_), a1 = std::abs(s1),
-                     c = std::abs(draw.shift);
+        const double floor = std::max(1e-13, 16 * rounding_), c = std::abs(draw.shift);
+        const double a1 = std::max(std::abs(s1), std::numeric_limits<double>::min());
         const double share =
             1 / (draw.draws * static_cast<double>(std::clamp<std::size_t>(patches_.size(), 1, 16)));
         const double t2 = std::max(share * tolerance_ * f.variance.value,
                                    floor * (s2 + 2 * c * std::sqrt(std::abs(s2)) + floor * c * c));
         const double t1 =
             std::max(std::min(share * tolerance_ * std::abs(f.mean.value), t2 / (2 * a1)),
-                     floor * (a1 + c * rounding_));
+                     floor * (std::abs(s1) + c * rounding_));
         const double t4 = std::max(share * 10 * tolerance_ * f.fourth.value, floor * s4);
         const double t3 = std::max(t4 / (4 * a1), floor * std::abs(s3));
         return {t1, t2, t3, t4};

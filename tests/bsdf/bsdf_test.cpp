@@ -94,7 +94,9 @@ TYPED_TEST(EveryBsdf, TheAlbedoByDrawsIsTheAlbedoByQuadrature)
             const Vec3<double> wi = bsdf.sample(wo, lobe, uniforms.pair());
             moments.add(wi.z > 0 ? f_cos(wi) / bsdf.evaluate(wo, wi).pdf : 0);
         }
-        const double rounding = 2e-5 * albedo;  // of the quadrature
+        // Of the quadrature; a lobe of 1e-4 rad seen at grazing angle is a spike to it.
+        const double rounding =
+            (material.type == "ggx" && material.alpha < 1e-3 ? 2e-4 : 2e-5) * albedo;
         EXPECT_NEAR(moments.mean, albedo,
                     z_bound(false_alarm, 1) * (bsdf.draws() ? moments.mean_se() : 0) + rounding);
     });

@@ -64,36 +64,6 @@ TEST(Ratios, ArePairedSoThatADriftingClockTouchesAllAlike)
     EXPECT_GT(alone.high / alone.low, 1.3);  // the twin
 }
 
-// 2000 runs of 8 equally fast strategies, 3 rounds each: at 5 % of tests of the first two, and a
-// median that is judged a little too strictly, 2 to 6.4 % are found apart; by chance outside once
-// in a million.
-TEST(Ratios, OfFewRoundsAreJudgedByTheNoiseOfAll)
-{
-    Random bits(11);
-    std::normal_distribution<double> noise(0, 0.1), drift(0, 0.5);
-    int shared = 0, alone = 0;
-    constexpr int runs = 2000;
-    for (int run = 0; run < runs; ++run) {
-        std::vector<Figures> figures(8);
-        for (Figures& f : figures) f.exact = true;
-        for (int round = 0; round < 3; ++round) {
-            const double slow = drift(bits);
-            for (Figures& f : figures) f.seconds_at.push_back(std::exp(slow + noise(bits)));
-        }
-        alone += two_sided_p(log_cost_ratio(figures[0], figures[1])) < 1e-3;
-        share_time_noise(figures);
-        ASSERT_EQ(figures[0].time_noise_dof, 14);
-        shared += two_sided_p(log_cost_ratio(figures[0], figures[1])) < 0.05;
-        figures[0].seconds_at = {2, 2, 2};
-        figures[1].seconds_at = {1, 1, 1};
-        EXPECT_LT(two_sided_p(log_cost_ratio(figures[0], figures[1])),
-                  1e-3);  // twice as slow is seen in three rounds
-    }
-    EXPECT_LT(shared / double(runs), rate_bound(0.05, runs));
-    EXPECT_GT(shared / double(runs), 0.02);
-    EXPECT_LT(alone, 20);
-}
-
 TEST(Reports, HaveNoIntervalForAProbeThatFewSamplesCarry)
 {
     StrategyMeasurements s = simulate("a", uniform_samples(0.1));

@@ -22,6 +22,7 @@ inline SceneReport sample_scene(const std::string& name, std::uint64_t seed = 1)
             Moments::of(std::span<const double>(std::vector<double>{1, 2, 0.5, 1})));
     StrategyMeasurements exact = simulate_exact("uniform", sim);
     exact.strategy.heuristic = "light";
+    exact.strategy.counts = {1, 0};
     StrategyMeasurements wrong = simulate(
         "power", [](Random& bits) { return 1.2 * uniform_samples(0.1)(bits); }, sim);
     wrong.strategy.model = Model::one_sample;
