@@ -2,6 +2,7 @@
 // are shipped.
 #include "mis/engine/lit_scene.h"
 #include "mis/io/scene_json.h"
+#include "mis/run/serial.h"
 #include "mis/trace/embree.h"
 
 #include <benchmark/benchmark.h>
@@ -67,8 +68,10 @@ void add_without_rays()
     const auto ready = std::make_shared<Ready>("veach-blinn", false);
     const auto ggx = std::make_shared<Ready>("veach", false);
     for (const std::string_view isa : instruction_sets())
-        for (const auto& [bsdf, scene] :
+        for (const auto& pair :
              {std::pair{std::string("lambert"), ready}, {"blinn", ready}, {"ggx", ggx}}) {
+            const std::string bsdf = pair.first;
+            const std::shared_ptr<Ready> scene = pair.second;
             int material = -1;
             for (std::size_t m = 0; m < scene->scene.materials.size(); ++m)
                 if (scene->scene.materials[m].type == bsdf) material = static_cast<int>(m);

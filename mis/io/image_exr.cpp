@@ -32,7 +32,8 @@ void write_exr(const std::filesystem::path& file, const Image& image,
     AtomicFile whole(file.string());
     static WriteExrPixels* const write_pixels = open_module();
     if (!write_pixels) fail(file, dlerror());
-    const std::string reason = write_pixels(whole.temporary_path(), image, metadata);
+    std::string reason;
+    write_pixels(whole.temporary_path(), image, metadata, reason);
     if (!reason.empty()) fail(file, reason);
     whole.commit();
 }

@@ -2,11 +2,14 @@
 
 #include <OpenImageIO/imageio.h>
 
-std::string mis_write_exr_pixels(const std::string& path, const mis::Image& image,
-                                 const std::map<std::string, std::string>& metadata)
+void mis_write_exr_pixels(const std::string& path, const mis::Image& image,
+                          const std::map<std::string, std::string>& metadata, std::string& reason)
 {
     const auto output = OIIO::ImageOutput::create("openexr");
-    if (!output) return OIIO::geterror();
+    if (!output) {
+        reason = OIIO::geterror();
+        return;
+    }
     OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
@@ -14,6 +17,5 @@ std::string mis_write_exr_pixels(const std::string& path, const mis::Image& imag
     static_assert(sizeof(mis::Vec3<float>) == 3 * sizeof(float));
     if (!output->open(path, spec) ||
         !output->write_image(OIIO::TypeDesc::FLOAT, image.pixels.data()) || !output->close())
-        return output->geterror();
-    return "";
+        reason = output->geterror();
 }

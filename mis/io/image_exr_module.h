@@ -7,11 +7,13 @@
 
 namespace mis {
 
-/// Writes the pixels and `metadata` to the file `path`; gives the reason if that failed, or "".
+/// Writes the pixels and `metadata` to the file `path`; `reason` says why if that failed,
+/// else it stays empty.
 /// It stands in a module that is opened for the first image: the libraries that OpenImageIO brings
 /// take 0.3 s to load.
-using WriteExrPixels = std::string(const std::string& path, const Image& image,
-                                   const std::map<std::string, std::string>& metadata);
+using WriteExrPixels = void(const std::string& path, const Image& image,
+                            const std::map<std::string, std::string>& metadata,
+                            std::string& reason);
 
 }  // namespace mis
 
