@@ -115,7 +115,7 @@ Figures figures_of(const StrategyMeasurements& s, double at)
     return f;
 }
 
-void share_time_noise(std::span<Figures> figures)
+void remove_drift(std::span<Figures> figures)
 {
     std::vector<Figures*> timed;
     std::size_t rounds = std::numeric_limits<std::size_t>::max();
@@ -146,6 +146,11 @@ void share_time_noise(std::span<Figures> figures)
     for (Figures* f : timed) {
         f->time_noise = std::sqrt(squares / dof);
         f->time_noise_dof = dof;
+        for (std::size_t i = 0; i < rounds; ++i) {
+            const double slower = std::exp(of_round[i] - mean);
+            f->seconds_at[i] /= slower;
+            f->seconds_to_1_percent[i] /= slower;
+        }
     }
 }
 

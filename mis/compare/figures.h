@@ -22,18 +22,18 @@ struct Figures {
     std::vector<double> seconds_to_1_percent;  ///< per observation: CPU seconds per point
     double samples_to_1_percent = 0;           ///< per point, at least 1
     double time_noise = 0,
-           time_noise_dof = 0;  ///< standard deviation of log(an observation): share_time_noise()
+           time_noise_dof = 0;  ///< standard deviation of log(an observation): remove_drift()
     double sampling_share = 0;  ///< d log(seconds to 1 %) / d log(relative variance)
 };
 
 /// at: samples per point that a point's preparation is shared by.
 Figures figures_of(const StrategyMeasurements& strategy, double at);
 
-/// Finds what a clock's noise is from all strategies together: what is left of log(seconds) when
-/// each strategy's and each round's mean is taken away (two-way analysis of variance). A few rounds
-/// tell little of one strategy's noise, but much of all strategies'. Left at 0 degrees of freedom
-/// for fewer than two rounds or strategies.
-void share_time_noise(std::span<Figures> figures);
+/// Takes out of the observed times what slowed all strategies of a round alike, and finds the noise
+/// that is left, from all strategies together (two-way analysis of variance of log(seconds)): a few
+/// rounds tell little of one strategy's noise, but much of all strategies'. Does nothing for fewer
+/// than two rounds or strategies.
+void remove_drift(std::span<Figures> figures);
 
 /// Logarithm of a's variance over b's, over the same replicates. ∓∞ where one is exact, 0 where
 /// both are.

@@ -142,7 +142,7 @@ Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
         ranking.strategies.push_back(report_of(s, figures.back(), scene.points, options.threads));
         if (s.was_run) replicates = std::min(replicates, static_cast<int>(s.replicates.size()));
     }
-    share_time_noise(figures);
+    remove_drift(figures);
     ranking.replicates = replicates == std::numeric_limits<int>::max() ? 0 : replicates;
     set_states(ranking.strategies, scene, options.bias_error * share_of(options.look));
 

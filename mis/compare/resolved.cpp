@@ -57,7 +57,8 @@ std::string carried_by_few(const Participation& participation, std::uint64_t sam
            " of " + count(static_cast<double>(samples)) + " samples; " +
            count(least_participation) + " are needed" +
            (participation.number() > 0
-                ? ", about " + number(least_participation / participation.number(), 2) +
+                ? ", about " +
+                      number(std::max(1.1, least_participation / participation.number()), 2) +
                       " times as many samples as now"
                 : "");
 }

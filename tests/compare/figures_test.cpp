@@ -64,6 +64,36 @@ TEST(Ratios, ArePairedSoThatADriftingClockTouchesAllAlike)
     EXPECT_GT(alone.high / alone.low, 1.3);  // the twin
 }
 
+// 2000 runs of 8 equally fast strategies, 3 rounds each, on a machine whose speed changes by half
+// from round to round. At 5 % the first two are called apart in at most that many (fewer, as a
+// median is judged a little too strictly); the bound is passed by chance once in 3 million.
+TEST(Ratios, OfFewRoundsAreJudgedByTheNoiseOfAllAndNotByTheDrift)
+{
+    Random bits(11);
+    std::normal_distribution<double> noise(0, 0.1), drift(0, 0.5);
+    int apart = 0;
+    constexpr int runs = 2000;
+    for (int run = 0; run < runs; ++run) {
+        std::vector<Figures> figures(8);
+        for (Figures& f : figures) f.exact = true;  // so that only times are compared
+        for (int round = 0; round < 3; ++round) {
+            const double slow = drift(bits);
+            for (Figures& f : figures) {
+                f.seconds_at.push_back(std::exp(slow + noise(bits)));
+                f.seconds_to_1_percent.push_back(f.seconds_at.back());
+            }
+        }
+        figures[2].seconds_at[0] *= 2, figures[2].seconds_at[1] *= 2, figures[2].seconds_at[2] *= 2;
+        remove_drift(figures);
+        ASSERT_EQ(figures[0].time_noise_dof, 14);
+        apart += two_sided_p(log_cost_ratio(figures[0], figures[1])) < 0.05;
+        EXPECT_LT(two_sided_p(log_cost_ratio(figures[2], figures[1])),
+                  0.01);  // twice as slow is seen at once
+    }
+    EXPECT_LT(apart / double(runs), rate_bound(0.05, runs));
+    EXPECT_GT(apart, 0);
+}
+
 TEST(Reports, HaveNoIntervalForAProbeThatFewSamplesCarry)
 {
     StrategyMeasurements s = simulate("a", uniform_samples(0.1));
