@@ -40,6 +40,20 @@ NodeColumn shifted_value(const NodeColumn& weight, const NodeColumn& value,
     return y;
 }
 
+/// A density that rounds to 0 where there is light: the mean is what it is, but no double holds
+/// what a draw would be worth, nor its higher moments.
+void add_all_but_impossible(const NodeColumn& pdf, const Nodes& nodes, double* kronrod,
+                            double* gauss)
+{
+    for (std::size_t i = 0; i < Rule::nodes; ++i) {
+        if (pdf[i] > 0 || !(nodes.value[i] > 0)) continue;
+        kronrod[0] += nodes.value[i] * nodes.kronrod[i];
+        gauss[0] += nodes.value[i] * nodes.gauss[i];
+        for (std::size_t m = 1; m < 4; ++m)
+            kronrod[m] = gauss[m] = std::numeric_limits<double>::infinity();
+    }
+}
+
 NodeColumn scaled(const NodeColumn& column, double factor)
 {
     NodeColumn result;
@@ -158,6 +172,7 @@ void Evaluator::add_strategy(std::size_t i, const Nodes& nodes, const Stretch& s
         for (std::size_t k = 0; k < padded; ++k)
             pdf[k] = s.direction(nodes.bsdf_pdf[k], nodes.wi_local[k]);
         add_to(slot, pdf, shifted_value(one, nodes.value, pdf, 0));
+        add_all_but_impossible(pdf, nodes, &kronrod[4 * slot], &gauss[4 * slot]);
         return;
     }
     const auto d = static_cast<std::size_t>(s.density);

@@ -383,6 +383,20 @@ TEST(Predict, ALightThatIsNeverChosenIsLeftToTheBsdf)
     EXPECT_GT(brdf.mean, 0);
 }
 
+TEST(Predict, WhatNoDoubleHoldsIsInfinite)
+{
+    Material material = lambert(0.5);
+    material.type = "blinn", material.exponent = 1e6,
+    material.specular_probability = 1;  // never a diffuse draw
+    Scene scene = empty_scene(material);
+    scene.lights.push_back(light_at(direction(1), 0.3, 2));
+    const Predicted brdf = predict_one(scene, "brdf"),
+                    light = predict_one(scene, "uniform/balance");
+    EXPECT_NEAR(brdf.mean, light.mean, brdf.mean_error + light.mean_error);
+    EXPECT_TRUE(std::isinf(brdf.variance) && std::isinf(brdf.fourth));
+    EXPECT_TRUE(std::isfinite(light.variance));
+}
+
 /// The same figures within both errors.
 void expect_same(const Scene& a, const Scene& b)
 {
