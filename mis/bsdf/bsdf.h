@@ -19,23 +19,16 @@ template <class T> struct BsdfValue {
 /// from the point, with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a
 /// wi with wi.z ≤ 0 is a lost draw, which contributes 0 and is not redrawn, so ∫pdf over the
 /// hemisphere + P(lost) = 1. draws(): false where all is black.
+// clang-format off
 template <class B, class T>
 concept Bsdf = std::constructible_from<B, const Material&> &&
-    requires(const B& bsdf, const Vec3<T>& w, const T& lobe, const Vec2<T>& u)
-{
-    {
-        B::name
-        } -> std::convertible_to<std::string_view>;
-    {
-        bsdf.evaluate(w, w)
-        } -> std::same_as<BsdfValue<T>>;
-    {
-        bsdf.sample(w, lobe, u)
-        } -> std::same_as<Vec3<T>>;
-    {
-        bsdf.draws()
-        } -> std::same_as<bool>;
+    requires(const B& bsdf, const Vec3<T>& w, const T& lobe, const Vec2<T>& u) {
+    { B::name } -> std::convertible_to<std::string_view>;
+    { bsdf.evaluate(w, w) } -> std::same_as<BsdfValue<T>>;
+    { bsdf.sample(w, lobe, u) } -> std::same_as<Vec3<T>>;
+    { bsdf.draws() } -> std::same_as<bool>;
 };
+// clang-format on
 
 /// An RGB constant in every lane.
 template <class T> MIS_INLINE Vec3<T> color(const Vec3<double>& rgb)

@@ -25,7 +25,7 @@ struct AuditEstimate {
 
 /// Draws directions from the cones of every policy and from the BSDFs, together a mixture that
 /// covers what any of the strategies can meet, and estimates ∫w²F²/p − (∫wF)² of each strategy from
-/// the same directions (docs/theory.md, "Audit"). In double, one point at a time, through formulas
+/// the same directions (docs/theory.md §12). In double, one point at a time, through formulas
 /// that the pipelines do not run.
 std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoint> points,
                                  std::span<const Strategy> strategies, std::uint64_t seed,

@@ -16,9 +16,9 @@ struct Comparison {
 };
 
 /// Decides every comparison of one family.
-/// apart: the ratio is not 1. tied: it lies within 1 ± margin (two one-sided tests, Schuirmann
-/// 1987); a pair for which both hold is tied. The probability that any `apart` is wrong is at most
-/// `error`, and likewise for `tied` (Holm 1979).
+/// apart: the ratio is not 1. tied: neither figure is above 1 + margin times the other (two
+/// one-sided tests, Schuirmann 1987); a pair for which both hold is tied. The probability that any
+/// `apart` is wrong is at most `error`, and likewise for `tied` (Holm 1979; docs/theory.md §15).
 void decide(std::span<Comparison> family, double margin, double error);
 
 /// About how many replicates more, of the same size, would decide this comparison of a family of

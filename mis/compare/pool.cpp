@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <numeric>
 
 namespace mis {
 namespace {
@@ -55,6 +56,18 @@ PooledFigures pool_points(std::span<const Moments> points, std::span<const doubl
         pooled.relative_variance /= static_cast<double>(with_variance);
     }
     return pooled;
+}
+
+RelativeScale relative_scale(std::vector<double> means, const StudyPoints& points, bool has_camera)
+{
+    const auto end_of_figures = means.begin() + static_cast<std::ptrdiff_t>(points.figure_lit);
+    RelativeScale scale;
+    if (has_camera && points.figure_points > 0)
+        scale.epsilon = 0.01 * std::accumulate(means.begin(), end_of_figures, 0.0) /
+                        static_cast<double>(points.figure_points);
+    for (double& mean : means) mean = mean * mean + scale.epsilon * scale.epsilon;
+    scale.squares = std::move(means);
+    return scale;
 }
 
 Participation participation_of(std::span<const Moments> points)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/compare/measurements.h"
+#include "mis/compare/study_points.h"
 
 #include <span>
 
@@ -13,6 +14,14 @@ namespace mis {
 /// Preconditions: as many scales as points; points with fewer than two samples are left out of the
 /// variances.
 PooledFigures pool_points(std::span<const Moments> points, std::span<const double> scale);
+
+/// What relative variances divide by: μ² + ε² of every point, and ε, which is 1 % of the mean over
+/// the figures' points, or 0 without a camera (design §1).
+struct RelativeScale {
+    double epsilon = 0;
+    std::vector<double> squares;
+};
+RelativeScale relative_scale(std::vector<double> means, const StudyPoints& points, bool has_camera);
 
 /// How many samples carry the variance over these points.
 Participation participation_of(std::span<const Moments> points);

@@ -12,9 +12,6 @@
 namespace mis {
 namespace {
 
-/// The part of an error probability that this look may spend: Σ 1/(k(k+1)) = 1.
-double share_of(int look) { return look < 1 ? 1 : 1 / (static_cast<double>(look) * (look + 1.0)); }
-
 void exclude(StrategyReport& report, Status status, const std::string& reason)
 {
     report.status = status;
@@ -77,6 +74,19 @@ std::vector<Comparison> compared_by(LogRatio ratio, const std::vector<int>& memb
                 {members[i], members[j], ratio(figures[members[i]], figures[members[j]])});
     decide(family, margin, error);
     return family;
+}
+
+/// What an earlier look decided stands; but not that a is better once it no longer is.
+void let_stand(std::span<const PairReport> earlier, std::span<Comparison> family)
+{
+    for (Comparison& now : family)
+        for (const PairReport& then : earlier) {
+            if (now.verdict != Verdict::undecided) break;
+            const bool is_turned = now.a == then.b && now.b == then.a;
+            if ((now.a == then.a && now.b == then.b) ||
+                (is_turned && then.verdict == Verdict::tied))
+                now.verdict = then.verdict;
+        }
 }
 
 /// 1 + how many are better: equal figures share a rank.
@@ -144,7 +154,7 @@ Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
     }
     remove_drift(figures);
     ranking.replicates = replicates == std::numeric_limits<int>::max() ? 0 : replicates;
-    set_states(ranking.strategies, scene, options.bias_error * share_of(options.look));
+    set_states(ranking.strategies, scene, options.bias_error * options.share);
 
     std::vector<int> ranked, timed;
     for (std::size_t i = 0; i < scene.strategies.size(); ++i) {
@@ -154,9 +164,9 @@ Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
             timed.push_back(static_cast<int>(i));
     }
     ranked = sorted_by(log_variance_ratio, std::move(ranked), figures);
-    const double error = options.family_error * share_of(options.look);
-    const auto by_variance =
-        compared_by(log_variance_ratio, ranked, figures, options.margin, error);
+    const double error = options.family_error * options.share;
+    auto by_variance = compared_by(log_variance_ratio, ranked, figures, options.margin, error);
+    let_stand(options.earlier, by_variance);
     const auto by_cost = compared_by(log_cost_ratio, timed, figures, options.margin, error);
     const auto by_time = compared_by(log_time_ratio, timed, figures, options.margin, error);
     set_ranks(ranking.strategies, by_variance, ranked, figures);

@@ -3,6 +3,7 @@
 #include "mis/compare/measurements.h"
 #include "mis/compare/report.h"
 
+#include <span>
 #include <vector>
 
 namespace mis {
@@ -15,9 +16,13 @@ struct RankOptions {
     double family_error =
         0.05;  ///< probability that any `apart` of one kind is wrong; and that any `tied` is
     double bias_error = 1e-3;  ///< probability that any unbiased strategy is called biased
-    /// 0: the only look at these measurements. k ≥ 1: the k-th look, at which it may be decided to
-    /// stop; it spends 1/(k(k+1)) of both errors, so that all looks together keep to them.
-    int look = 0;
+    /// The part of all these errors that this look may spend. Of several looks at growing
+    /// measurements, at each of which it may be decided to stop, the parts sum to at most 1, so
+    /// that all looks together keep to the errors.
+    double share = 1;
+    /// Pairs at the look before: what was decided by variance then stands, though later looks may
+    /// spend less.
+    std::span<const PairReport> earlier = {};
 };
 
 /// What follows from the measurements of one scene.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace mis {
@@ -32,6 +33,17 @@ inline Plan plan_for(std::uint64_t spp)
     return plan;
 }
 
+/// Samples per point of a first round, about.
+inline constexpr int first_samples = 32;
+
+/// Replicates where time is the limit: 32 where a round of two samples each leaves time for a dozen
+/// rounds, else 16. More of them tell the errors better (Student's t); fewer make shorter rounds.
+/// round_seconds: what first_samples of all strategies cost; seconds: that there are.
+inline int replicates_for(double round_seconds, double seconds)
+{
+    return 2 * round_seconds * 12 < seconds ? 32 : 16;
+}
+
 /// The next round's samples per replicate where time is the limit. seconds_left: wall;
 /// round_seconds: of one sample per replicate of all strategies. 0: no round of two samples fits.
 inline int next_chunk(int rounds_so_far, double seconds_left, double round_seconds)
@@ -41,6 +53,24 @@ inline int next_chunk(int rounds_so_far, double seconds_left, double round_secon
     if (fit < 2) return 0;
     return static_cast<int>(std::min<double>(wanted, fit));
 }
+
+/// How looks at growing measurements share the probabilities of error among them: by the square of
+/// the elapsed part of the time allowed, less what was spent before (Kim and DeMets 1987, ρ = 2).
+/// Early looks, which decide little, spend little; all together spend at most 1.
+class ErrorSpending {
+public:
+    /// What the look at this part of the time, in [0, 1], may spend.
+    double spend_at(double elapsed)
+    {
+        const double all = std::clamp(elapsed * elapsed, spent_, 1.0);
+        return all - std::exchange(spent_, all);
+    }
+    /// What the last look may spend.
+    double spend_rest() { return 1 - std::exchange(spent_, 1.0); }
+
+private:
+    double spent_ = 0;
+};
 
 /// The order of n strategies in a round: a shuffle of its own.
 std::vector<std::size_t> round_order(std::size_t n, std::uint64_t seed, std::uint32_t round);

@@ -40,17 +40,16 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
     return costs;
 }
 
-void StrategyRun::sample_round(const Allocation& allocation, int replicates,
-                               std::span<const double> weights, WorkspacePool<float>& workspaces,
-                               const AnyExecutor& executor)
+void StrategyRun::sample_round(const Round& round, std::span<const double> weights,
+                               WorkspacePool<float>& workspaces, const AnyExecutor& executor)
 {
     std::vector<std::vector<ChunkTotals>> totals;
     const std::vector<TileTotals> costs =
-        run_tiles(allocation, replicates, weights, totals, workspaces, executor);
+        run_tiles(round.allocation, round.replicates, weights, totals, workspaces, executor);
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         TileSums& tile = tiles_[t];
-        tile.replicates.resize(static_cast<std::size_t>(replicates));
-        const double n = allocation[t];
+        tile.replicates.resize(static_cast<std::size_t>(round.replicates));
+        const double n = round.allocation[t];
         for (std::size_t r = 0; r < tile.replicates.size(); ++r) {
             tile.replicates[r].mean += n * totals[t][r].mean;
             tile.replicates[r].variance += (n - 1) * totals[t][r].variance;
@@ -59,7 +58,7 @@ void StrategyRun::sample_round(const Allocation& allocation, int replicates,
         tile.mean_weight += n;
         tile.variance_weight += n - 1;
     }
-    times_.push_back(observed(costs));
+    if (round.is_timed) times_.push_back(observed(costs));
 }
 
 void StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces,

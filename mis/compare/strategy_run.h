@@ -19,10 +19,16 @@ public:
     StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
                 std::uint64_t seed);
 
-    /// The next samples of every point: allocation[tile] for each of `replicates`. weights: 1/(μ² +
-    /// ε²) of every point. The time is an observation; every observation is of the same mix of
-    /// points, however unevenly tiles are sampled.
-    void sample_round(const Allocation& allocation, int replicates, std::span<const double> weights,
+    /// What every point gets in a round: allocation[tile] samples for each of `replicates`.
+    struct Round {
+        const Allocation& allocation;
+        int replicates;
+        bool is_timed;  ///< the time is an observation
+    };
+
+    /// The next samples of every point. weights: 1/(μ² + ε²) of every point. Every observation of
+    /// time is of the same mix of points, however unevenly tiles are sampled.
+    void sample_round(const Round& round, std::span<const double> weights,
                       WorkspacePool<float>& workspaces, const AnyExecutor& executor);
 
     /// The next samples of every point, `count` of them, outside the replicates: they count in the

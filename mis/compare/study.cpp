@@ -1,5 +1,8 @@
 #include "mis/compare/study.h"
 
+#include "mis/compare/affordable.h"
+#include "mis/compare/pool.h"
+#include "mis/compare/resolved.h"
 #include "mis/compare/schedule.h"
 #include "mis/strategy/names.h"
 
@@ -33,7 +36,7 @@ public:
     Scheduler(const LitScene& scene, const std::vector<Strategy>& strategies,
               const StudyOptions& options, const AnyExecutor& executor)
         : scene_(scene), strategies_(strategies), options_(options), executor_(executor),
-          reasons_(strategies.size()), estimates_(strategies.size())
+          costs_(strategies.size()), rests_(strategies.size(), false)
     {
         study_.points = std::make_unique<StudyPoints>(find_study_points(scene, executor));
         study_.runs.resize(strategies.size());
@@ -75,136 +78,49 @@ private:
                 {.name = plan.name, .on = plan.on, .share = plan.on ? 1.0 : 0.0, .why = plan.why});
     }
 
-    /// What a first look at the costs allows; a rough picture of the scene, for the weights; and
-    /// the audit.
+    /// What a first look at the costs allows; a rough picture of the scene, for the weights; how
+    /// samples are best spread; and the audit.
     void start_runs()
     {
+        tile_factors_.assign(study_.points->shading.tiles.size(), 1.0);
         if (points() == 0) {
-            for (std::size_t s = 0; s < strategies_.size(); ++s)
-                study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points,
-                                                               strategies_[s], options_.seed);
+            for (std::size_t s = 0; s < strategies_.size(); ++s) start_run(s);
             return;
         }
-        choose_by_cost();
+        const double cpu = options_.spp ? 1e300 : budget() * executor_.threads;
+        if (!options_.spp) {
+            costs_ = estimate_costs(ground(), strategies_, first_samples, 0.6 * cpu);
+            plan_.replicates = replicates_for(sum_of_costs(), cpu);
+        }
+        std::vector<Strategy> quick;
+        for (std::size_t s = 0; s < strategies_.size(); ++s) {
+            if (!costs_[s].is_affordable) continue;
+            start_run(s);
+            if (costs_[s].seconds < 0.05 * cpu) quick.push_back(strategies_[s]);
+        }
         if (is_stopped()) return;
-        make_pilot();
+        weights_ = rough_weights(ground());
+        if (!options_.spp) tile_factors_ = best_tile_factors(ground(), quick);
         run_audit();
     }
 
-    /// CPU seconds that a first round of a strategy takes, without running it: a floor under its
-    /// cost.
-    double least_seconds(const Strategy& strategy) const
+    StudyGround ground()
     {
-        const double lights = static_cast<double>(scene_.scene().lights.size()),
-                     n = static_cast<double>(points());
-        if (!strategy.chooses_light()) return 0;
-        if (draws_every_light(strategy.policy)) return n * lights * first_samples() * 10e-9;
-        return looks_at_point(strategy.policy) ? n * lights * 0.5e-9 : 0;
+        return {scene_, *study_.points, workspaces_, executor_, options_.seed, options_.stop};
     }
 
-    int first_samples() const
+    void start_run(std::size_t s)
     {
-        return options_.spp ? static_cast<int>(std::min<std::uint64_t>(*options_.spp, 1 << 30))
-                            : 32;
+        study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s],
+                                                       options_.seed);
     }
 
-    void choose_by_cost()
+    /// CPU seconds of `first_samples` at every point, over the strategies that are run.
+    double sum_of_costs() const
     {
-        const double cpu = options_.spp ? 1e300 : budget() * executor_.threads * 0.6;
-        std::vector<std::size_t> order;
-        for (std::size_t s = 0; s < strategies_.size(); ++s) {
-            estimates_[s] = least_seconds(strategies_[s]);
-            if (estimates_[s] <= cpu) {
-                study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points,
-                                                               strategies_[s], options_.seed);
-                if (!options_.spp)
-                    estimates_[s] = std::max(estimates_[s], tried_out(*study_.runs[s]));
-            }
-            order.push_back(s);
-        }
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return estimates_[a] < estimates_[b];
-        });
         double sum = 0;
-        for (const std::size_t s : order) {
-            sum += estimates_[s];
-            if (sum <= cpu || (s == order.front() && study_.runs[s])) continue;
-            reasons_[s] = "past the budget";
-            study_.runs[s].reset();
-        }
-    }
-
-    double tried_out(const StrategyRun& run)
-    {
-        TimeObservation cost =
-            run.try_out(1, 4, workspaces_);  // the first touch of memory is no cost of the strategy
-        if (cost.seconds_per_sample < 1e-3) cost = run.try_out(8, 32, workspaces_);
-        return static_cast<double>(points()) *
-               (first_samples() * cost.seconds_per_sample + cost.seconds_per_point);
-    }
-
-    /// A rough picture of the scene, from samples that count for nothing else: weights for the
-    /// replicates' relative variances and, where time is the limit, how the samples are best spread
-    /// over the tiles.
-    void make_pilot()
-    {
-        constexpr int pilot_samples = 8;
-        std::vector<double> benefit(study_.points->figure_tiles);
-        const bool is_small =
-            static_cast<double>(scene_.scene().lights.size()) * static_cast<double>(points()) < 1e8;
-        const Strategy rough =
-            parse_strategy(is_small ? "radiant-solid-angle/power" : "power/power");
-        StrategyRun pilot(scene_, *study_.points, rough, ~options_.seed);
-        pilot.sample_apart(pilot_samples, workspaces_, executor_);
-        std::vector<double> means;
-        for (const PointResult& result : pilot.results()) means.push_back(result.luminance.mean);
-        weights_ = scale_of(means);
-        for (double& w : weights_) w = w > 0 ? 1 / w : 0;
-        tile_factors_.assign(study_.points->shading.tiles.size(), 1);
-        if (options_.spp) return;
-        for (std::size_t s = 0; s < strategies_.size(); ++s)
-            if (study_.runs[s] && estimates_[s] < 0.05 * budget() * executor_.threads &&
-                !is_stopped()) {
-                StrategyRun one(scene_, *study_.points, strategies_[s], ~options_.seed);
-                one.sample_apart(pilot_samples, workspaces_, executor_);
-                add_benefit(benefit, one);
-            }
-        spread_over_tiles(benefit);
-    }
-
-    /// What a tile adds to the squared relative error of a strategy's variance, per sample: Σ μ4
-    /// over V².
-    void add_benefit(std::vector<double>& benefit, const StrategyRun& run) const
-    {
-        std::vector<double> fourth(benefit.size());
-        double variance = 0;
-        for (std::size_t t = 0; t < benefit.size(); ++t) {
-            const Tile& tile = study_.points->shading.tiles[t];
-            for (const PointResult& result : run.results().subspan(tile.first, tile.count)) {
-                variance += result.luminance.variance();
-                fourth[t] += result.luminance.m4;
-            }
-        }
-        if (!(variance > 0)) return;
-        for (std::size_t t = 0; t < benefit.size(); ++t)
-            benefit[t] += fourth[t] / (variance * variance);
-    }
-
-    /// Samples in proportion to √(benefit per point), between half and eight times the mean:
-    /// stratified sampling (Neyman 1934). The pilot's samples count for nothing else, so no figure
-    /// is biased by it.
-    void spread_over_tiles(const std::vector<double>& benefit)
-    {
-        double mean = 0;
-        std::vector<double> wanted(benefit.size());
-        for (std::size_t t = 0; t < benefit.size(); ++t) {
-            const double count = study_.points->shading.tiles[t].count;
-            wanted[t] = std::sqrt(benefit[t] / count);
-            mean += wanted[t] * count / static_cast<double>(points());
-        }
-        if (!(mean > 0)) return;
-        for (std::size_t t = 0; t < benefit.size(); ++t)
-            tile_factors_[t] = std::clamp(wanted[t] / mean, 0.5, 8.0);
+        for (const CostEstimate& cost : costs_) sum += cost.is_affordable ? cost.seconds : 0;
+        return sum;
     }
 
     /// `chunk` samples per replicate in the mean, at least two.
@@ -215,20 +131,6 @@ private:
             allocation.push_back(
                 options_.spp ? chunk : std::max(2, static_cast<int>(std::lround(factor * chunk))));
         return allocation;
-    }
-
-    /// μ² + ε² of every point; ε is 1 % of the mean over the figures' points, 0 without a camera.
-    std::vector<double> scale_of(const std::vector<double>& means)
-    {
-        double sum = 0;
-        for (std::size_t p = 0; p < points(); ++p) sum += means[p];
-        const double epsilon = scene_.scene().camera
-                                   ? 0.01 * sum / static_cast<double>(study_.points->figure_points)
-                                   : 0;
-        study_.report.epsilon = epsilon;
-        std::vector<double> scale;
-        for (const double mean : means) scale.push_back(mean * mean + epsilon * epsilon);
-        return scale;
     }
 
     void run_audit()
@@ -261,19 +163,20 @@ private:
         return std::prev(after)->material;
     }
 
-    /// One round: every strategy in turn, in random order. False: stopped before the first
-    /// strategy.
+    /// One round: every strategy in turn that does not rest, in random order. Times are compared
+    /// over the rounds that all took part in.
     void round(int chunk)
     {
         const Allocation allocation = allocation_of(chunk);
+        const bool any_rests = std::find(rests_.begin(), rests_.end(), true) != rests_.end();
         const std::vector<std::size_t> order =
             round_order(strategies_.size(), options_.seed, rounds_++);
         std::size_t done = 0;
         for (const std::size_t s : order) {
             if (is_stopped()) return;
-            if (study_.runs[s])
-                study_.runs[s]->sample_round(allocation, plan_.replicates, weights_, workspaces_,
-                                             executor_);
+            if (study_.runs[s] && !rests_[s])
+                study_.runs[s]->sample_round({allocation, plan_.replicates, !any_rests}, weights_,
+                                             workspaces_, executor_);
             show_progress(static_cast<double>(++done) / static_cast<double>(order.size()));
         }
     }
@@ -304,27 +207,49 @@ private:
     void run_time()
     {
         if (points() == 0) return;
-        double samples = 0, last_look = 0, sampling_seconds = 0;
+        double samples = 0, last_look = 0, round_seconds = 0;  // of one sample per replicate
         while (!is_stopped()) {
-            const double round_seconds = samples > 0 ? sampling_seconds / samples : 0;
             const int chunk = next_chunk(static_cast<int>(rounds_),
                                          budget() - seconds_since(start_), round_seconds);
             if (chunk == 0) return;
             const Clock::time_point before = Clock::now();
             round(chunk);
-            sampling_seconds += seconds_since(before);
+            round_seconds = seconds_since(before) / chunk;
             samples += chunk;
             if (is_stopped() || rounds_ < 3 || samples < 1.4 * last_look) continue;
             last_look = samples;
-            rank_now(++look_);
+            rank_now(stops_when_settled() ? spending_.spend_at(seconds_since(start_) / budget())
+                                          : 1);  // no verdict decides to stop
             if (is_enough()) return;
+            if (stops_when_settled()) let_rest();
         }
     }
 
+    /// What is decided rests, so that the undecided get its time; and so does what is not resolved
+    /// and would not be in the time that there is.
+    void let_rest()
+    {
+        const double more = budget() / seconds_since(start_);
+        for (std::size_t s = 0; s < rests_.size(); ++s) {
+            const StrategyReport& report = study_.report.strategies[s];
+            rests_[s] = report.status != Status::not_resolved ||
+                        report.effective_samples > least_participation ||
+                        report.effective_samples * more < least_participation;
+        }
+        for (const PairReport& pair : study_.report.pairs)
+            if (pair.verdict == Verdict::undecided)
+                rests_[static_cast<std::size_t>(pair.a)] =
+                    rests_[static_cast<std::size_t>(pair.b)] = false;
+        if (std::find(rests_.begin(), rests_.end(), false) == rests_.end())
+            rests_.assign(rests_.size(), false);
+    }
+
+    bool stops_when_settled() const { return !options_.spp && !options_.seconds && !options_.error; }
+
     bool is_enough() const
     {
-        if (options_.seconds) return false;
-        if (!options_.error) return study_.report.settled;
+        if (stops_when_settled()) return study_.report.settled;
+        if (!options_.error) return false;
         bool any = false;
         for (const StrategyReport& s : study_.report.strategies) {
             if (s.status != Status::ranked) continue;
@@ -359,14 +284,19 @@ private:
         return sums;
     }
 
-    void rank_now(int look)
+    /// share: of the probabilities of error that this look spends.
+    void rank_now(double share)
     {
-        const std::vector<double> scale = scale_of(pooled_means());
+        const RelativeScale scale =
+            relative_scale(pooled_means(), *study_.points, scene_.scene().camera.has_value());
+        study_.report.epsilon = scale.epsilon;
         SceneMeasurements scene{study_.points->figure_points, {}};
         for (std::size_t s = 0; s < strategies_.size(); ++s)
-            scene.strategies.push_back(measured(s, scale));
-        Ranking ranking =
-            rank(scene, {.threads = executor_.threads, .at = options_.at, .look = look});
+            scene.strategies.push_back(measured(s, scale.squares));
+        const std::vector<PairReport> earlier =
+            stops_when_settled() ? std::move(study_.report.pairs) : std::vector<PairReport>();
+        Ranking ranking = rank(
+            scene, {.threads = executor_.threads, .at = options_.at, .share = share, .earlier = earlier});
         study_.report.strategies = std::move(ranking.strategies);
         study_.report.pairs = std::move(ranking.pairs);
         study_.report.settled = ranking.settled;
@@ -380,8 +310,9 @@ private:
             StrategyMeasurements m;
             m.strategy = strategies_[s];
             m.was_run = false;
-            m.not_run_reason = reasons_[s].empty() ? "stopped before its turn" : reasons_[s];
-            m.estimated_seconds = estimates_[s];
+            m.not_run_reason =
+                costs_[s].is_affordable ? "stopped before its turn" : "past the budget";
+            m.estimated_seconds = costs_[s].seconds;
             return m;
         }
         StrategyMeasurements m = study_.runs[s]->measurements(scale);
@@ -415,9 +346,7 @@ private:
 
     void finish()
     {
-        rank_now(options_.spp || look_ == 0                   ? 0
-                 : study_.report.settled && !options_.seconds ? look_
-                                                              : look_ + 1);
+        if (!stops_when_settled() || !study_.report.settled) rank_now(spending_.spend_rest());
         study_.report.partial = is_stopped();
     }
 
@@ -430,9 +359,10 @@ private:
     WorkspacePool<float> workspaces_;
     Plan plan_;
     std::uint32_t rounds_ = 0;
-    int look_ = 0;
-    std::vector<std::string> reasons_;
-    std::vector<double> estimates_, weights_, tile_factors_;
+    ErrorSpending spending_;
+    std::vector<CostEstimate> costs_;
+    std::vector<bool> rests_;
+    std::vector<double> weights_, tile_factors_;
     std::vector<std::size_t> audited_;
     std::vector<AuditEstimate> audit_;
 };

@@ -4,7 +4,7 @@
 
 namespace mis {
 
-/// Veach's balance heuristic (Veach and Guibas 1995; Veach 1997, eq. 9.8).
+/// Veach's balance heuristic (Veach and Guibas 1995; Veach 1997, §9.2.2; docs/theory.md, eq. 23).
 struct BalanceHeuristic {
     static constexpr std::string_view name = "balance";
     static constexpr std::string_view summary = "in proportion to the density";

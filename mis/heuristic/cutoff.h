@@ -4,7 +4,7 @@
 
 namespace mis {
 
-/// Veach's cutoff heuristic with α = 0.1 (Veach 1997, eq. 9.10): balance among those of at least a
+/// Veach's cutoff heuristic with α = 0.1 (Veach 1997, §9.2.3): balance among those of at least a
 /// tenth of the largest density; the others count nothing.
 struct CutoffHeuristic {
     static constexpr std::string_view name = "cutoff";

@@ -13,19 +13,14 @@ namespace mis {
 // techniques for all densities in [1e-38, 1e38]; a technique of density 0 has weight 0, of infinite
 // density 1 (shared where both are).
 
+// clang-format off
 template <class H, class T>
-concept Heuristic = requires(const std::array<T, 2>& density, std::size_t i)
-{
-    {
-        H::name
-        } -> std::convertible_to<std::string_view>;
-    {
-        H::summary
-        } -> std::convertible_to<std::string_view>;
-    {
-        H::weight(density, i)
-        } -> std::same_as<T>;
+concept Heuristic = requires(const std::array<T, 2>& density, std::size_t i) {
+    { H::name } -> std::convertible_to<std::string_view>;
+    { H::summary } -> std::convertible_to<std::string_view>;
+    { H::weight(density, i) } -> std::same_as<T>;
 };
+// clang-format on
 
 /// a/b, where two infinities (and two zeros) are as one to one.
 template <class T> MIS_INLINE T density_ratio(const T& a, const T& b)

@@ -4,7 +4,7 @@
 
 namespace mis {
 
-/// Veach's maximum heuristic (Veach 1997, eq. 9.12): all to the largest density; a tie goes to the
+/// Veach's maximum heuristic (Veach 1997, §9.2.3): all to the largest density; a tie goes to the
 /// first, the light.
 struct MaximumHeuristic {
     static constexpr std::string_view name = "maximum";

@@ -4,7 +4,7 @@
 
 namespace mis {
 
-/// Veach's power heuristic with β = 2 (Veach 1997, eq. 9.11).
+/// Veach's power heuristic with β = 2 (Veach 1997, §9.2.3; docs/theory.md, eq. 23).
 struct PowerHeuristic {
     static constexpr std::string_view name = "power";
     static constexpr std::string_view summary = "in proportion to the squared density";

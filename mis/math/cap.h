@@ -25,7 +25,7 @@ template <class T> struct Cap {
 /// gap2: d² − r², from double where the point is near the sphere. Precondition: gap2 > 0.
 /// Accuracy: solid angle within 1e-6 in float for θ_max from 1e-20 rad to 89.9° (cap_test.cpp).
 /// Source: Shirley, Wang and Zimmerman 1996, "Monte Carlo Techniques for Direct Lighting
-/// Calculations", §3.2.
+/// Calculations"; docs/theory.md, eq. 3.
 template <class T>
 MIS_INLINE Cap<T> cap_towards(const Vec3<T>& to_center, const T& radius, const T& gap2)
 {

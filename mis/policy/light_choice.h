@@ -63,16 +63,13 @@ private:
 /// 0; a light that can contribute has a positive one. choose(bits).probability equals
 /// probability(choose(bits).light) exactly. bits: 64 random bits; a float number would starve
 /// lights where there are millions.
+// clang-format off
 template <class Table>
-concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightIndex light)
-{
-    {
-        table.choose(bits)
-        } -> std::same_as<Choice>;
-    {
-        table.probability(light)
-        } -> std::same_as<double>;
+concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightIndex light) {
+    { table.choose(bits) } -> std::same_as<Choice>;
+    { table.probability(light) } -> std::same_as<double>;
 };
+// clang-format on
 
 /// The question a light-choice policy answers: which light should a point spend its next draw on?
 /// prepare<T>() is called once per shading point (T may be a batch: lanes run over the lights); the
@@ -80,30 +77,19 @@ concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightInde
 /// table_bytes(lights): the scratch it takes. draws_every_light: one sample is one draw for every
 /// light (`all`); choose() is not asked. looks_at_point: false where one table serves every point;
 /// prepare() then costs nothing.
+// clang-format off
 template <class P, class T>
 concept LightChoice = std::constructible_from<P, const Lights&> &&
     requires(const P& policy, const ChoicePoint<Scalar<T>>& point,
-             const LightColumns<Scalar<T>>& columns, Scratch& scratch)
-{
-    {
-        P::name
-        } -> std::convertible_to<std::string_view>;
-    {
-        P::summary
-        } -> std::convertible_to<std::string_view>;
-    {
-        P::draws_every_light
-        } -> std::convertible_to<bool>;
-    {
-        P::looks_at_point
-        } -> std::convertible_to<bool>;
-    {
-        P::table_bytes(std::size_t{})
-        } -> std::same_as<std::size_t>;
-    {
-        policy.template prepare<T>(point, columns, scratch)
-        } -> ChoiceTable;
+             const LightColumns<Scalar<T>>& columns, Scratch& scratch) {
+    { P::name } -> std::convertible_to<std::string_view>;
+    { P::summary } -> std::convertible_to<std::string_view>;
+    { P::draws_every_light } -> std::convertible_to<bool>;
+    { P::looks_at_point } -> std::convertible_to<bool>;
+    { P::table_bytes(std::size_t{}) } -> std::same_as<std::size_t>;
+    { policy.template prepare<T>(point, columns, scratch) } -> ChoiceTable;
 };
+// clang-format on
 
 /// One light of the columns as seen from a point, or a batch of them.
 template <class T> struct SeenLight {

@@ -7,7 +7,7 @@
 namespace mis {
 
 /// Draws lights in proportion to the power they emit, wherever the point is (Shirley, Wang and
-/// Zimmerman 1996, §4).
+/// Zimmerman 1996).
 class PowerPolicy {
 public:
     static constexpr std::string_view name = "power";

@@ -30,7 +30,7 @@ MIS_INLINE CapDraw<T> cap_draw_at(const Cap<T>& cap, const T& w, const T& one_mi
 }
 
 /// A direction uniform in solid angle over the cap. u: two uniform numbers in [0, 1).
-/// Source: Shirley, Wang and Zimmerman 1996, §3.2; in 1 − cos θ, so that nothing cancels
+/// Source: Shirley, Wang and Zimmerman 1996; in 1 − cos θ, so that nothing cancels
 /// (docs/theory.md, eq. 5).
 template <class T> MIS_INLINE CapDraw<T> sample_cone(const Cap<T>& cap, const Vec2<T>& u)
 {

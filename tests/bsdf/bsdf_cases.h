@@ -26,7 +26,7 @@ inline double lobe_width(const Material& material)
 /// near the horizon.
 inline PolarGrid grid_of(const Material& material, const Vec3<double>& wo)
 {
-    return PolarGrid({-wo.x, -wo.y, wo.z}, 0.1 * lobe_width(material), 20, 24);
+    return PolarGrid({-wo.x, -wo.y, wo.z}, 0.1 * lobe_width(material), 20, wo.z < 0.1 ? 48 : 16);
 }
 
 inline std::string description(const Material& m, const Vec3<double>& wo)

@@ -222,8 +222,8 @@ TEST(Rank, TakesManyLooksIntoAccount)
     // Significant as the only look, not as the tenth of many.
     const StrategyMeasurements a = simulate("a", uniform_samples(0.1)),
                                b = simulate("b", uniform_samples(0.105));
-    EXPECT_EQ(rank_of({a, b}, {.look = 0}).pairs[0].verdict, Verdict::apart);
-    EXPECT_EQ(rank_of({a, b}, {.look = 1000}).pairs[0].verdict, Verdict::undecided);
+    EXPECT_EQ(rank_of({a, b}, {.share = 1}).pairs[0].verdict, Verdict::apart);
+    EXPECT_EQ(rank_of({a, b}, {.share = 1e-6}).pairs[0].verdict, Verdict::undecided);
 }
 
 TEST(Rank, IsTheSameForTheSameMeasurements)

@@ -1,6 +1,8 @@
 // Every instruction set and number type: the same samples, but for rounding.
 #include "mis/engine/kernels.h"
 
+#include "mis/sampling/random.h"
+
 #include "tests/engine/bench.h"
 #include "tests/support/statistics.h"
 
@@ -78,6 +80,51 @@ TEST(InstructionSets, AgreeWithDoubleInFloat)
 {
     for (const char* type : {"lambert", "lecture", "blinn", "ggx"})
         expect_agreement<float>(type, 2e-4);
+}
+
+/// What `mis replay` and any other part of the work recompute: seed, point, sample, draw and block
+/// say it all.
+template <class T> void expect_numbers_of_the_counter(const Kernels<T>& kernels)
+{
+    std::array<ShadingPoint, 3> points{};
+    for (std::size_t p = 0; p < 3; ++p) points[p].id = static_cast<std::uint32_t>(40 + 7 * p);
+    const TileJob<T> job{.points = points, .seed = 0x1234'5678'9abc};
+    const auto batch = std::make_unique<Batch<T>>();
+    batch->rows = 77, batch->draw = 3;
+    for (std::size_t i = 0; i < 77; ++i) {
+        const std::size_t slot = 76 - i;  // as after a compaction, rows are not slots
+        batch->slot[i] = static_cast<std::int32_t>(slot);
+        batch->point[i] = static_cast<std::int32_t>(i % 3);
+        batch->sample_number[slot] = (std::uint64_t{5} << 32) + slot;
+    }
+    batch->tile_point = {2, 0, 1};
+    const auto words = [&](std::size_t i, Block block) {
+        const std::uint32_t id = points[batch->tile_point[i % 3]].id;
+        return random_words(job.seed, {id, (std::uint64_t{5} << 32) + 76 - i, 3}, block);
+    };
+    kernels.light_numbers(job, *batch);
+    for (std::size_t i = 0; i < 77; ++i) {
+        const Words w = words(i, Block::light);
+        ASSERT_EQ(batch->bits[i], choice_bits(w));
+        ASSERT_EQ(batch->u[i], unit_number<T>(w[2]));
+        ASSERT_EQ(batch->v[i], unit_number<T>(w[3]));
+    }
+    kernels.bsdf_numbers(job, *batch);
+    for (std::size_t i = 0; i < 77; ++i) {
+        const Words w = words(i, Block::bsdf);
+        ASSERT_EQ(batch->lobe[i], unit_number<T>(w[1]));
+        ASSERT_EQ(batch->u[i], unit_number<T>(w[2]));
+        ASSERT_EQ(batch->v[i], unit_number<T>(w[3]));
+    }
+}
+
+TEST(InstructionSets, NumbersAreThoseOfTheCounter)
+{
+    for (const std::string_view set : instruction_sets()) {
+        SCOPED_TRACE(set);
+        expect_numbers_of_the_counter(kernels_of<float>(set));
+        expect_numbers_of_the_counter(kernels_of<double>(set));
+    }
 }
 
 }  // namespace

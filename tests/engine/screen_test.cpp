@@ -50,11 +50,18 @@ std::vector<Case> cases()
         {"far from the origin", cloud(Vec3<double>(1e6), 1, 1e-3, 0.3), Vec3<double>(1e6)},
         {"small units", cloud(Vec3<double>(0), 1e-6, 1e-3, 0.3), Vec3<double>(0), 1e-6},
         {"large units", cloud(Vec3<double>(0), 1e6, 1e-3, 0.3), Vec3<double>(0), 1e6}};
-    Lights sun = eclipse(), copies = three_lights_apart();
+    const auto twice = [](const Lights& lights) {
+        Lights all = lights;
+        all.insert(all.end(), lights.begin(), lights.end());
+        return all;
+    };
+    Lights sun = eclipse(), tiny = cloud(Vec3<double>(0), 1, 1e-9, 1e-4);
+    tiny.resize(15);
     sun.push_back(make_light({1e11, 1e11, 3e10}, 7e8, Vec3<double>(1e4)));
-    copies.insert(copies.end(), copies.begin(), copies.begin() + 3);
     list.push_back({"eclipse and sun", sun});
-    list.push_back({"copies", copies});
+    list.push_back({"copies", twice(three_lights_apart())});
+    // Narrower than a direction rounds: only the room left for rounding sees what hides the copies.
+    list.push_back({"copies of tiny ones", twice(tiny)});
     return list;
 }
 

@@ -149,7 +149,7 @@ TEST(AgreementTwin, SeesASmallError)
     for (Light& light : wrong.lights) light.radiance_radius *= 1.03F;
     const std::vector<Strategy> strategies = strategies_of({"all/light"});
     const Predicted p = predict(wrong, wrong.probes[0], strategies)[0];
-    EXPECT_GT(std::abs(scores(scene, strategies[0], p, scaled(60'000)).mean),
+    EXPECT_GT(std::abs(scores(scene, strategies[0], p, 60'000).mean),
               z_bound(1e-6, 2 * int(names.size() * scenes)));
 }
 

@@ -56,7 +56,7 @@ TEST(Warp, DrawsFollowTheirDensity)
 /// The twin: the same draws against densities that are 5 % off in their exponent.
 TEST(Warp, TheSameTestSeesAnExponentThatIs5PercentOff)
 {
-    const int draws = scaled(200'000);
+    const int draws = 200'000;
     const PolarGrid grid({0, 0, 1}, 1e-4);
     std::vector<double> observed(grid.size());
     auto expected = grid.integrals(

@@ -70,7 +70,9 @@ std::vector<LightCase> cases()
         {"overlapping", cloud(300, 1, 0.2, 0.6), 3},
         {"tiny and huge", cloud(1000, 10, 1e-4, 3), 30},
         {"far from the origin", cloud(500, 10, 0.1, 2, Vec3<double>(1e6)), 20, Vec3<double>(1e6)},
-        {"millimetres", cloud(500, 1e-3, 1e-6, 3e-4), 3e-3}};
+        {"millimetres", cloud(500, 1e-3, 1e-6, 3e-4), 3e-3},
+        {"one, tiny from afar", cloud(1, 1, 1e-4, 1e-4), 1e4},
+        {"tiny from afar", cloud(300, 1, 1e-6, 1e-3), 1e4}};
     Lights coincident = cloud(50, 1, 0.2, 0.5), line, with_sun = cloud(200, 5, 0.05, 0.5);
     for (int i = 0; i < 150; ++i)
         coincident.push_back(coincident[static_cast<std::size_t>(i) % 50]);
