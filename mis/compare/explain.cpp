@@ -62,9 +62,10 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
         for (int row = 0; row < found.height; row += 256)
             count_points(found, find_shading_points(scene, lit.lights(), lit.surfaces(), row,
                                                     std::min(256, found.height - row), executor));
+    } else {
+        count_points(found, probe_points(scene, lit.lights(), lit.surfaces()));
     }
     found.probes = scene.probes.size();
-    count_points(found, probe_points(scene, lit.lights(), lit.surfaces()));
     found.effects = explained(scene, lit.effects());
     found.light_bytes = scene.lights.size() * sizeof(Light);
     found.hierarchy_bytes = lit.lights().bytes();

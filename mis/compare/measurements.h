@@ -98,7 +98,7 @@ struct StrategyMeasurements {
 };
 
 struct SceneMeasurements {
-    std::size_t points = 0;  ///< shading points that the figures are over
+    std::size_t points = 0;  ///< shading points that samples are drawn at; dark ones cost nothing
     std::vector<StrategyMeasurements> strategies;
 };
 

@@ -10,17 +10,17 @@
 namespace mis {
 namespace {
 
-constexpr double normal_quantile = 1.959963985;  // of 2.5 %
-
 /// Sum of logarithms over scenes, with the variance of the sum.
 struct LogSum {
     double sum = 0, variance = 0;
     int scenes = 0;
 
-    void add(const Interval& ratio)
+    /// ratio: with its 95 % interval from so many replicates (Student's t).
+    void add(const Interval& ratio, int replicates)
     {
         sum += std::log(ratio.value);
-        const double se = std::log(ratio.high / ratio.low) / (2 * normal_quantile);
+        const double se =
+            std::log(ratio.high / ratio.low) / (2 * t_quantile(0.025, std::max(1, replicates - 1)));
         variance += se * se;
         ++scenes;
     }
@@ -96,11 +96,12 @@ OverallReport overall_of(const std::string& name, const std::vector<SceneReport>
         if (!exact && scene.strategies[*least(scene, true, place_by_variance)].exact)
             ++overall.beaten_by_exact;
         variance.add(exact ? Interval{1, 1, 1}
-                           : ratios_of(scene, i, *least(scene, false, place_by_variance)).variance);
+                           : ratios_of(scene, i, *least(scene, false, place_by_variance)).variance,
+                     scene.replicates);
         if (const auto best = least(scene, exact, place_by_efficiency))
-            cost.add(ratios_of(scene, i, *best).cost);
+            cost.add(ratios_of(scene, i, *best).cost, scene.replicates);
         if (const auto best = least(scene, true, seconds))
-            time.add(ratios_of(scene, i, *best).time);
+            time.add(ratios_of(scene, i, *best).time, scene.replicates);
     }
     overall.variance_ratio = variance.geometric_mean();
     overall.cost_ratio = cost.geometric_mean();

@@ -40,10 +40,10 @@ void add_benefit(std::vector<double>& benefit, const StrategyRun& run, const Stu
 std::vector<double> rough_weights(const StudyGround& ground)
 {
     const Scene& scene = ground.scene.scene();
-    const double pairs = static_cast<double>(scene.lights.size()) *
-                         static_cast<double>(ground.points.figure_lit);
-    const StrategyRun run = sampled(
-        ground, parse_strategy(pairs < 1e8 ? "radiant-solid-angle/power" : "power/power"));
+    const double pairs =
+        static_cast<double>(scene.lights.size()) * static_cast<double>(ground.points.figure_lit);
+    const StrategyRun run =
+        sampled(ground, parse_strategy(pairs < 1e8 ? "radiant-solid-angle/power" : "power/power"));
     std::vector<double> weights;
     for (const PointResult& result : run.results()) weights.push_back(result.luminance.mean);
     weights = relative_scale(std::move(weights), ground.points, scene.camera.has_value()).squares;

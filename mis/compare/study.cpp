@@ -111,8 +111,8 @@ private:
 
     void start_run(std::size_t s)
     {
-        study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s],
-                                                       options_.seed);
+        study_.runs[s] =
+            std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s], options_.seed);
     }
 
     /// CPU seconds of `first_samples` at every point, over the strategies that are run.
@@ -244,7 +244,10 @@ private:
             rests_.assign(rests_.size(), false);
     }
 
-    bool stops_when_settled() const { return !options_.spp && !options_.seconds && !options_.error; }
+    bool stops_when_settled() const
+    {
+        return !options_.spp && !options_.seconds && !options_.error;
+    }
 
     bool is_enough() const
     {
@@ -290,13 +293,14 @@ private:
         const RelativeScale scale =
             relative_scale(pooled_means(), *study_.points, scene_.scene().camera.has_value());
         study_.report.epsilon = scale.epsilon;
-        SceneMeasurements scene{study_.points->figure_points, {}};
+        SceneMeasurements scene{points(), {}};
         for (std::size_t s = 0; s < strategies_.size(); ++s)
             scene.strategies.push_back(measured(s, scale.squares));
         const std::vector<PairReport> earlier =
             stops_when_settled() ? std::move(study_.report.pairs) : std::vector<PairReport>();
         Ranking ranking = rank(
-            scene, {.threads = executor_.threads, .at = options_.at, .share = share, .earlier = earlier});
+            scene,
+            {.threads = executor_.threads, .at = options_.at, .share = share, .earlier = earlier});
         study_.report.strategies = std::move(ranking.strategies);
         study_.report.pairs = std::move(ranking.pairs);
         study_.report.settled = ranking.settled;

@@ -22,12 +22,12 @@ template <class T> struct VecColumn {
     template <class V> MIS_INLINE Vec3<V> get(int row) const
     {
         const auto i = static_cast<std::size_t>(row);
-        return {load<V>(&x[i]), load<V>(&y[i]), load<V>(&z[i])};
+        return {load_lanes<V>(&x[i]), load_lanes<V>(&y[i]), load_lanes<V>(&z[i])};
     }
     template <class V> MIS_INLINE void set(int row, const Vec3<V>& v)
     {
         const auto i = static_cast<std::size_t>(row);
-        store(&x[i], v.x), store(&y[i], v.y), store(&z[i], v.z);
+        store_lanes(&x[i], v.x), store_lanes(&y[i], v.y), store_lanes(&z[i], v.z);
     }
     Vec3<T> at(int row) const { return get<T>(row); }
     void put(int row, const Vec3<T>& v) { set<T>(row, v); }
@@ -53,7 +53,7 @@ template <class T> struct Batch {
     // Per sample.
     alignas(64) Column<std::int32_t> sample_point;  ///< which of the batch's points
     alignas(64) Column<std::uint64_t> sample_number;
-    VecColumn<T> value;  ///< radiance, W·sr⁻¹·m⁻²
+    VecColumn<double> value;  ///< radiance, W·sr⁻¹·m⁻²: dim lights after a bright one must count
 
     // Per point of this batch.
     std::array<TableSlot, batch_capacity> tables;

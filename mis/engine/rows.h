@@ -16,11 +16,11 @@ template <class V, class Body> MIS_INLINE void for_each_lane_group(int rows, con
 /// Lanes [row, row + lane_count) of a column.
 template <class V, class T> MIS_INLINE V lanes_of(const Column<T>& column, int row)
 {
-    return load<V>(&column[static_cast<std::size_t>(row)]);
+    return load_lanes<V>(&column[static_cast<std::size_t>(row)]);
 }
 template <class V, class T> MIS_INLINE void set_lanes(Column<T>& column, int row, const V& value)
 {
-    store(&column[static_cast<std::size_t>(row)], value);
+    store_lanes(&column[static_cast<std::size_t>(row)], value);
 }
 
 template <class T> MIS_INLINE bool is_zero(const VecColumn<T>& column, int row)

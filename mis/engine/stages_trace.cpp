@@ -152,7 +152,7 @@ template <class T> void add_contributions(const TileJob<T>&, Batch<T>& batch)
             continue;
         }
         const int slot = batch.slot[static_cast<std::size_t>(row)];
-        batch.value.put(slot, batch.value.at(slot) + contribution);
+        batch.value.put(slot, batch.value.at(slot) + vec_cast<double>(contribution));
     }
 }
 

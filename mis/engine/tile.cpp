@@ -36,7 +36,7 @@ template <class T> struct Workspace<T>::Run {
     std::span<ChunkTotals> totals;
     Batch<T>& batch;
     Scratch& scratch;
-    Column<T>& luminances;
+    Column<double>& luminances;
     std::array<std::uint64_t, stage_names.size()> stage_ticks{};
     Moments chunk;  ///< of the point and chunk at hand
 
@@ -90,9 +90,9 @@ template <class T> struct Workspace<T>::Run {
             clear_points();
             return;
         }
-        std::fill_n(batch.value.x.begin(), batch.samples, T(0));
-        std::fill_n(batch.value.y.begin(), batch.samples, T(0));
-        std::fill_n(batch.value.z.begin(), batch.samples, T(0));
+        std::fill_n(batch.value.x.begin(), batch.samples, 0.0);
+        std::fill_n(batch.value.y.begin(), batch.samples, 0.0);
+        std::fill_n(batch.value.z.begin(), batch.samples, 0.0);
         const std::size_t lights = pipeline.draws_every_light ? job.lights->size() : 1;
         const std::uint32_t light_draws = static_cast<std::uint32_t>(pipeline.light_draws * lights);
         for (std::uint32_t draw = 0; draw < light_draws; ++draw) run_half(pipeline.light, draw);
@@ -127,9 +127,9 @@ template <class T> struct Workspace<T>::Run {
                 std::min(left_of_chunk, static_cast<std::size_t>(batch.samples) - first);
             PointResult& result =
                 results[batch.tile_point[static_cast<std::size_t>(batch.sample_point[first])]];
-            chunk.merge(Moments::of(std::span<const T>(&luminances[first], count)));
+            chunk.merge(Moments::of(std::span<const double>(&luminances[first], count)));
             for (std::size_t i = first; i < first + count; ++i)
-                result.radiance_sum += vec_cast<double>(batch.value.at(static_cast<int>(i)));
+                result.radiance_sum += batch.value.at(static_cast<int>(i));
             if (count == left_of_chunk)
                 end_chunk(result, number / static_cast<std::size_t>(range.chunk));
             first += count;

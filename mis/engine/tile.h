@@ -61,7 +61,7 @@ private:
     std::unique_ptr<Batch<T>> batch_;
     std::unique_ptr<Scratch> scratch_;
     std::vector<T> columns_;
-    Column<T> luminance_;
+    Column<double> luminance_;
 };
 
 extern template class Workspace<float>;

@@ -85,24 +85,25 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
     for (const MaterialUse& m : found.materials)
         materials.push_back(
             {{"name", m.name}, {"type", m.type}, {"shading_points", m.shading_points}});
-    const Json scene{{"file", found.file},
-                     {"name", found.name},
-                     {"lights", found.lights},
-                     {"black_lights", found.black_lights},
-                     {"light_radius", {{"low", found.radius.low}, {"high", found.radius.high}}},
-                     {"light_power", {{"low", found.power.low}, {"high", found.power.high}}},
-                     {"quads", found.quads},
-                     {"spheres", found.spheres},
-                     {"meshes", found.meshes},
-                     {"triangles", found.triangles},
-                     {"resolution", {found.width, found.height}},
-                     {"shading_points", found.shading_points},
-                     {"dark_points", found.dark_points},
-                     {"background_pixels", found.background_pixels},
-                     {"tiles", found.tiles},
-                     {"probes", found.probes},
-                     {"materials", materials},
-                     {"effects", effects}};
+    const Json scene{
+        {"file", found.file},
+        {"name", found.name},
+        {"lights", found.lights},
+        {"black_lights", found.black_lights},
+        {"light_radius", {{"low", found.radius.low}, {"high", found.radius.high}}},
+        {"light_power", {{"low", found.power.low}, {"high", found.power.high}}},
+        {"quads", found.quads},
+        {"spheres", found.spheres},
+        {"meshes", found.meshes},
+        {"triangles", found.triangles},
+        {"resolution", found.width > 0 ? Json{found.width, found.height} : Json(nullptr)},
+        {"shading_points", found.shading_points},
+        {"dark_points", found.dark_points},
+        {"background_pixels", found.background_pixels},
+        {"tiles", found.tiles},
+        {"probes", found.probes},
+        {"materials", materials},
+        {"effects", effects}};
     const Json report{{"format", "mis-explain/1"}, {"version", MIS_VERSION},
                       {"command", run.command},    {"seed", run.seed},
                       {"threads", run.threads},    {"scenes", Json::array({scene})}};

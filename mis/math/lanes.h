@@ -42,13 +42,13 @@ template <class T> using Scalar = typename detail::LaneTraits<T>::Scalar;
 template <class T> inline constexpr std::size_t lane_count = detail::LaneTraits<T>::count;
 
 /// Numbers `p[0] … p[lane_count − 1]`; p needs no alignment.
-template <class T> MIS_INLINE T load(const Scalar<T>* p)
+template <class T> MIS_INLINE T load_lanes(const Scalar<T>* p)
 {
     if constexpr (lane_count<T> == 1) return *p;
     else return T::load_unaligned(p);
 }
 
-template <class T> MIS_INLINE void store(Scalar<T>* p, const T& value)
+template <class T> MIS_INLINE void store_lanes(Scalar<T>* p, const T& value)
 {
     if constexpr (lane_count<T> == 1) *p = value;
     else value.store_unaligned(p);

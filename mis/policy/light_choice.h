@@ -119,13 +119,14 @@ RunningSum prepare_by_weight(const Weight& weight, const ChoicePoint<Scalar<T>>&
     const Vec3<T> x{T(point.x.x), T(point.x.y), T(point.x.z)},
         n{T(point.n.x), T(point.n.y), T(point.n.z)};
     for (std::size_t j = 0; j < lights.count; j += lane_count<T>) {
-        const Vec3<T> to_center =
-            Vec3<T>{load<T>(&lights.x[j]), load<T>(&lights.y[j]), load<T>(&lights.z[j])} - x;
-        const T radius = load<T>(&lights.radius[j]);
+        const Vec3<T> to_center = Vec3<T>{load_lanes<T>(&lights.x[j]), load_lanes<T>(&lights.y[j]),
+                                          load_lanes<T>(&lights.z[j])} -
+                                  x;
+        const T radius = load_lanes<T>(&lights.radius[j]);
         const SeenLight<T> seen{to_center, length(to_center), radius,
-                                load<T>(&lights.luminance_radius[j]),
+                                load_lanes<T>(&lights.luminance_radius[j]),
                                 radius * T(lights.inverse_largest_radius)};
-        store(&weights[j], weight(seen, n));
+        store_lanes(&weights[j], weight(seen, n));
     }
     return RunningSum::over(std::span<const Scalar<T>>(weights.first(lights.count)), sums);
 }

@@ -18,7 +18,7 @@ TYPED_TEST(EveryLanes, StoreUndoesLoadAtAnyAddress)
     using S = Scalar<TypeParam>;
     std::array<S, 40> from{}, to{};
     for (std::size_t i = 0; i < from.size(); ++i) from[i] = static_cast<S>(i) + S(0.5);
-    store(&to[1], load<TypeParam>(&from[3]));
+    store_lanes(&to[1], load_lanes<TypeParam>(&from[3]));
     for (std::size_t i = 0; i < lane_count<TypeParam>; ++i) EXPECT_EQ(to[1 + i], from[3 + i]);
     EXPECT_EQ(to[1 + lane_count<TypeParam>], 0);
 }

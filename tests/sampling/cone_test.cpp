@@ -166,11 +166,12 @@ template <class V> void expect_lanes_agree()
             r[i] = static_cast<S>(uniforms.log_between(1e-8, 2.9));
             u[i] = static_cast<S>(uniforms() * 0.999), v[i] = static_cast<S>(uniforms());
         }
-        const V radius = load<V>(r.data());
+        const V radius = load_lanes<V>(r.data());
         const Vec3<V> center = vec_lanes_from<V>([&](std::size_t i) { return c[i]; });
         const V gap2 = V(S(9)) - radius * radius;
-        const CapDraw<V> draws = sample_cone(cap_towards(center, radius, gap2),
-                                             Vec2<V>{load<V>(u.data()), load<V>(v.data())});
+        const CapDraw<V> draws =
+            sample_cone(cap_towards(center, radius, gap2),
+                        Vec2<V>{load_lanes<V>(u.data()), load_lanes<V>(v.data())});
         for (std::size_t i = 0; i < c.size(); ++i) {
             const CapDraw<S> one =
                 sample_cone(cap_towards(c[i], r[i], lane(gap2, i)), Vec2<S>{u[i], v[i]});

@@ -18,7 +18,7 @@ template <class T> using TestLanes = xsimd::batch<T>;
 template <class V> Scalar<V> lane(const V& v, std::size_t i)
 {
     std::array<Scalar<V>, lane_count<V>> all;
-    store(all.data(), v);
+    store_lanes(all.data(), v);
     return all[i];
 }
 template <class V> Vec3<Scalar<V>> lane(const Vec3<V>& v, std::size_t i)
@@ -31,7 +31,7 @@ template <class V, class F> V lanes_from(const F& f)
 {
     std::array<Scalar<V>, lane_count<V>> all;
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = f(i);
-    return load<V>(all.data());
+    return load_lanes<V>(all.data());
 }
 template <class V, class F> Vec3<V> vec_lanes_from(const F& f)
 {
