@@ -242,6 +242,28 @@ double variance_without(std::size_t left_out, const Strategy& s,
     return square - light - bsdf;
 }
 
+/// One figure of one strategy, with each group left out in turn and, last, with none.
+using LeftOut = std::array<double, groups + 1>;
+
+struct FigureSums {
+    LeftOut variance{}, relative{};
+
+    void add(const FigureSums& other)
+    {
+        for (std::size_t g = 0; g <= groups; ++g)
+            variance[g] += other.variance[g], relative[g] += other.relative[g];
+    }
+};
+
+/// The jackknife's: (K − 1)/K Σ (v₋g − v)².
+double standard_error(const LeftOut& figure)
+{
+    double spread = 0;
+    for (std::size_t g = 0; g < groups; ++g)
+        spread += (figure[g] - figure[groups]) * (figure[g] - figure[groups]);
+    return std::sqrt(spread * (groups - 1) / groups);
+}
+
 }  // namespace
 
 std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoint> points,
@@ -250,10 +272,11 @@ std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoi
 {
     std::vector<AuditEstimate> estimates(strategies.size());
     if (points.empty()) return estimates;
-    // [part][strategy][left out]; one part per task, added in order.
+    // [part][strategy]; one part per task, added in order.
     const std::size_t repeats = std::max<std::size_t>(1, fewest_looks / points.size());
     const std::size_t parts = std::min<std::size_t>(points.size(), 64);
-    std::vector<std::vector<std::array<double, groups + 1>>> sums(parts);
+    const double share = 1 / static_cast<double>(points.size());
+    std::vector<std::vector<FigureSums>> sums(parts);
     executor.for_each(parts, [&](std::size_t part) {
         Auditor auditor(scene, strategies);
         sums[part].resize(strategies.size());
@@ -264,21 +287,19 @@ std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoi
             for (std::size_t g = 0; g < groups; ++g)
                 for (std::size_t s = 0; s < strategies.size(); ++s) found[s][g] = drawn[g][s];
             for (std::size_t s = 0; s < strategies.size(); ++s)
-                for (std::size_t g = 0; g <= groups; ++g)
-                    sums[part][s][g] += variance_without(g, strategies[s], found[s]);
+                for (std::size_t g = 0; g <= groups; ++g) {
+                    const double v = share * variance_without(g, strategies[s], found[s]);
+                    sums[part][s].variance[g] += v;
+                    sums[part][s].relative[g] += v * points[p].weight;
+                }
         }
     });
-    const double n = static_cast<double>(points.size());
     for (std::size_t s = 0; s < strategies.size(); ++s) {
         if (draws_every_light(strategies[s].policy)) continue;
-        std::array<double, groups + 1> total{};
-        for (std::size_t part = 0; part < parts; ++part)
-            for (std::size_t g = 0; g <= groups; ++g) total[g] += sums[part][s][g] / n;
-        double spread = 0;  // jackknife: (K − 1)/K Σ (v₋g − v)²
-        for (std::size_t g = 0; g < groups; ++g)
-            spread += (total[g] - total[groups]) * (total[g] - total[groups]);
-        estimates[s] = {true, std::max(total[groups], 0.0),
-                        std::sqrt(spread * (groups - 1) / groups)};
+        FigureSums total;
+        for (std::size_t part = 0; part < parts; ++part) total.add(sums[part][s]);
+        estimates[s] = {true, std::max(total.variance[groups], 0.0), standard_error(total.variance),
+                        std::max(total.relative[groups], 0.0), standard_error(total.relative)};
     }
     return estimates;
 }

@@ -14,6 +14,7 @@ namespace mis {
 struct AuditPoint {
     ShadingPoint point;
     int material;
+    double weight = 0;  ///< 1/(μ² + ε²): what its variance counts in the relative variance
 };
 
 /// What directions drawn by *all* techniques at hand say about one strategy's variance at some
@@ -21,6 +22,7 @@ struct AuditPoint {
 struct AuditEstimate {
     bool available = false;  ///< not for a policy that draws every light: it misses none
     double variance = 0, variance_se = 0;  ///< of one sample, mean over the points
+    double relative_variance = 0, relative_variance_se = 0;  ///< the same, times the weights
 };
 
 /// Draws directions from the cones of every policy and from the BSDFs, together a mixture that

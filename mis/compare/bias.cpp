@@ -184,6 +184,8 @@ BiasFinding finding_of(const std::vector<Test>& tests, double error)
     for (const Test& test : tests) {
         if (test.p >= error) continue;
         if (test.difference > 0) finding.too_low = false;
+        finding.relative_excess =
+            std::max(finding.relative_excess, test.difference / std::fabs(test.reference));
         if (test.region < 0) finding.only_in_regions = false;
     }
     return finding;
@@ -193,7 +195,11 @@ BiasFinding finding_of(const std::vector<Test>& tests, double error)
 
 bool may_lack_rare_samples(const BiasFinding& finding, const StrategyMeasurements& strategy)
 {
-    if (!finding.biased || !finding.too_low || strategy.all_samples_equal_reference) return false;
+    if (!finding.biased || strategy.all_samples_equal_reference) return false;
+    if (!finding.too_low)
+        return !finding.only_in_regions &&
+               finding.relative_excess <=
+                   most_never_drawn / static_cast<double>(strategy.pooled.samples);
     const double carried_by = strategy.pooled.participation.number();
     return finding.only_in_regions ||
            (!strategy.audit.available && carried_by < least_participation_without_audit);
@@ -223,8 +229,16 @@ std::vector<BiasFinding> find_bias(std::span<const StrategyMeasurements* const> 
             });
         if (findings[worst].p_value >= error) break;
         const bool last_two = trusted.size() == 2;
+        const auto lacks = [&](std::size_t s) {
+            return may_lack_rare_samples(finding_of(tests[s], error), *strategies[s]);
+        };
         for (const std::size_t s : trusted) {
             if (s != worst && !last_two) continue;
+            const std::size_t other = s == trusted.front() ? trusted.back() : trusted.front();
+            if (last_two && lacks(other) && !lacks(s)) {
+                search.distrust(s);
+                continue;
+            }
             findings[s] = finding_of(tests[s], error);
             if (last_two)
                 findings[s].reason +=

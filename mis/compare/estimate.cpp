@@ -65,6 +65,37 @@ LogEstimate log_contrast(std::span<const double> a, double weight_a, std::span<c
     return contrast;
 }
 
+namespace {
+
+double mean_of_totals(const RegionSums& figure)
+{
+    double sum = 0;
+    for (const std::vector<double>& replicate : figure)
+        sum = std::accumulate(replicate.begin(), replicate.end(), sum);
+    return sum / as_double(figure.size());
+}
+
+}  // namespace
+
+LogEstimate log_contrast(const RegionSums& a, const RegionSums& b)
+{
+    const std::size_t n = b.empty() ? a.size() : std::min(a.size(), b.size());
+    const double mean_a = mean_of_totals(a), mean_b = b.empty() ? 1 : mean_of_totals(b);
+    LogEstimate contrast{std::log(mean_a / mean_b), nan, n > 0 ? as_double(n - 1) : 0};
+    if (n < 2 || !(mean_a > 0) || !(mean_b > 0)) return contrast;
+    double variance = 0, squares = 0;
+    std::vector<double> shares(n);
+    for (std::size_t g = 0; g < a[0].size(); ++g) {
+        for (std::size_t r = 0; r < n; ++r)
+            shares[r] = a[r][g] / mean_a - (b.empty() ? 0 : b[r][g] / mean_b);
+        const double v = std::pow(mean_and_error(shares).se, 2);
+        variance += v, squares += v * v;
+    }
+    contrast.se = std::sqrt(variance);
+    if (squares > 0) contrast.dof *= variance * variance / squares;
+    return contrast;
+}
+
 LogEstimate log_mean(std::span<const double> replicates)
 {
     return log_contrast(replicates, 1, {}, 0);

@@ -25,6 +25,16 @@ LogEstimate product(const LogEstimate& a, const LogEstimate& b);
 LogEstimate log_contrast(std::span<const double> a, double weight_a, std::span<const double> b,
                          double weight_b);
 
+/// A figure of each replicate as a sum over regions, [replicate][region]; regions' samples are
+/// independent.
+using RegionSums = std::vector<std::vector<double>>;
+
+/// log(mean of a) − log(mean of b), over the same replicates and regions; `b` may be empty, for
+/// log(mean of a) alone. The error is added up region by region, which makes far more degrees of
+/// freedom than the replicates' totals have (docs/theory.md, §15; Satterthwaite 1946): the samples
+/// of one region say nothing of another's. Unknown for fewer than two replicates or a mean of 0.
+LogEstimate log_contrast(const RegionSums& a, const RegionSums& b);
+
 /// log(mean of replicates), with its jackknife error.
 LogEstimate log_mean(std::span<const double> replicates);
 

@@ -82,7 +82,7 @@ void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figu
             std::isnan(seconds.value) ? unknown_interval() : Interval{infinity, infinity, infinity};
         return;
     }
-    LogEstimate cost = product(log_mean(figures.variances), seconds);
+    LogEstimate cost = product(log_contrast(figures.variances, {}), seconds);
     report.efficiency = interval_about(1 / (figures.variance * std::exp(seconds.value)), cost);
 }
 
@@ -96,9 +96,10 @@ Figures figures_of(const StrategyMeasurements& s, double at)
     f.relative_variance = f.exact ? 0 : s.pooled.relative_variance;
     f.samples_to_1_percent = std::max(1.0, f.relative_variance / one_percent_squared);
     for (const ReplicateValues& replicate : s.replicates) {
-        f.variances.push_back(replicate.variance);
+        f.variances.push_back({replicate.variance});
         f.relative_variances.push_back(replicate.relative_variance);
     }
+    if (s.region_variances.size() == s.replicates.size()) f.variances = s.region_variances;
     for (const TimeObservation& time : s.times) {
         f.seconds_at.push_back(time.seconds_per_sample + time.seconds_per_point / at);
         f.seconds_to_1_percent.push_back(f.samples_to_1_percent * time.seconds_per_sample +
@@ -157,9 +158,7 @@ void remove_drift(std::span<Figures> figures)
 LogEstimate log_variance_ratio(const Figures& a, const Figures& b)
 {
     if (a.exact || b.exact) return {a.exact && b.exact ? 0 : a.exact ? -infinity : infinity, 0, 1};
-    const std::size_t n = std::min(a.variances.size(), b.variances.size());
-    LogEstimate ratio =
-        log_contrast(std::span(a.variances).first(n), 1, std::span(b.variances).first(n), 1);
+    LogEstimate ratio = log_contrast(a.variances, b.variances);
     ratio.value = std::log(a.variance / b.variance);
     return ratio;
 }
@@ -201,8 +200,9 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
     for (const ReplicateValues& replicate : s.replicates) means.push_back(replicate.mean);
     report.mean = s.pooled.mean;
     report.mean_se = figures.exact ? 0 : mean_and_error(means).se;
-    report.variance =
-        figures.exact ? Interval{} : interval_about(figures.variance, log_mean(figures.variances));
+    report.variance = figures.exact
+                          ? Interval{}
+                          : interval_about(figures.variance, log_contrast(figures.variances, {}));
     report.relative_variance = figures.exact ? Interval{}
                                              : interval_about(figures.relative_variance,
                                                               log_mean(figures.relative_variances));

@@ -16,7 +16,8 @@ inline constexpr double one_percent_squared = 1e-4;
 struct Figures {
     bool exact = false;  ///< variance 0, proved
     double variance = 0, relative_variance = 0;
-    std::vector<double> variances, relative_variances;  ///< per replicate
+    std::vector<double> relative_variances;  ///< per replicate
+    RegionSums variances;                    ///< per replicate and region
     std::vector<double>
         seconds_at;  ///< per observation: seconds per sample, with its part of a point at n samples
     std::vector<double> seconds_to_1_percent;  ///< per observation: CPU seconds per point

@@ -83,6 +83,8 @@ struct StrategyMeasurements {
     /// the image (a scene without a camera: one per probe); the same for every strategy; may be
     /// empty.
     std::vector<std::vector<double>> region_means;
+    /// [replicate][region]: what the region adds to the replicate's variance; sums to it.
+    std::vector<std::vector<double>> region_variances;
     std::vector<Participation> region_participation;  ///< [region]; as many as regions
     PooledFigures pooled;
     /// A proof of zero variance: every sample equals the reference (quadrature, or other

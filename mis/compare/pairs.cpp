@@ -41,10 +41,13 @@ std::vector<double> p_values(std::span<const Comparison> family,
     return values;
 }
 
-/// The fewest replicates of which `gap`, in standard errors of one, is past the quantile of `tail`.
-double replicates_for(double gap, double tail)
+/// The fewest replicates of which `gap`, in standard errors of one, is past the quantile of `tail`;
+/// each but the first brings `dof` degrees of freedom.
+double replicates_for(double gap, double tail, double dof)
 {
-    const auto enough = [&](double n) { return gap * std::sqrt(n) >= t_quantile(tail, n - 1); };
+    const auto enough = [&](double n) {
+        return gap * std::sqrt(n) >= t_quantile(tail, dof * (n - 1));
+    };
     double high = 2;
     while (!enough(high) && high < 1e15) high *= 2;
     double low = high / 2;
@@ -79,9 +82,10 @@ double replicates_to_decide(const Comparison& comparison, std::size_t pairs, dou
     const double tail = error / static_cast<double>(std::max<std::size_t>(pairs, 1));
     const double distance = std::fabs(ratio.value), room = std::log1p(margin) - distance;
     const double one_se = ratio.se * std::sqrt(replicates);  // of one replicate
+    const double dof = ratio.dof / std::max(1.0, replicates - 1);
     double n = std::numeric_limits<double>::infinity();
-    if (distance > 0) n = replicates_for(distance / one_se, tail / 2);
-    if (room > 0) n = std::min(n, replicates_for(room / one_se, tail));
+    if (distance > 0) n = replicates_for(distance / one_se, tail / 2, dof);
+    if (room > 0) n = std::min(n, replicates_for(room / one_se, tail, dof));
     return std::max(1.0, std::ceil(n - replicates));
 }
 

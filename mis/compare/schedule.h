@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -12,6 +14,8 @@ namespace mis {
 /// touches all alike.
 struct Plan {
     int replicates = 16;
+    int parts = 1;  ///< rounds that the replicates take turns in: more and shorter rounds, which
+                    ///< tell the times better
     std::vector<int>
         chunks;         ///< samples per replicate, round by round; for a fixed number of samples
     int remainder = 0;  ///< samples per point that do not divide among the replicates
@@ -36,12 +40,19 @@ inline Plan plan_for(std::uint64_t spp)
 /// Samples per point of a first round, about.
 inline constexpr int first_samples = 32;
 
-/// Replicates where time is the limit: 32 where a round of two samples each leaves time for a dozen
-/// rounds, else 16. More of them tell the errors better (Student's t); fewer make shorter rounds.
-/// round_seconds: what first_samples of all strategies cost; seconds: that there are.
+/// Replicates where time is the limit: 32 where a round of two samples each leaves time for half a
+/// dozen rounds, else 16. More of them tell the errors better (Student's t); fewer make shorter
+/// rounds. round_seconds: what first_samples of all strategies cost; seconds: that there are.
 inline int replicates_for(double round_seconds, double seconds)
 {
-    return 2 * round_seconds * 12 < seconds ? 32 : 16;
+    return 2 * round_seconds * 6 < seconds ? 32 : 16;
+}
+
+/// Plan::parts where there is time for few rounds: so many that there are half a dozen, at most 4.
+inline int parts_for(double round_seconds, double seconds)
+{
+    return std::bit_ceil(
+        static_cast<unsigned>(std::clamp(std::ceil(6 * round_seconds / seconds), 1.0, 4.0)));
 }
 
 /// The next round's samples per replicate where time is the limit. seconds_left: wall;
@@ -54,15 +65,16 @@ inline int next_chunk(int rounds_so_far, double seconds_left, double round_secon
     return static_cast<int>(std::min<double>(wanted, fit));
 }
 
-/// How looks at growing measurements share the probabilities of error among them: by the square of
-/// the elapsed part of the time allowed, less what was spent before (Kim and DeMets 1987, ρ = 2).
-/// Early looks, which decide little, spend little; all together spend at most 1.
+/// How looks at growing measurements share the probabilities of error among them: half of it by the
+/// square of the elapsed part of the time allowed, less what was spent before (Kim and DeMets 1987,
+/// ρ = 2), the rest at the end. Early looks, which decide little, spend little; all together spend
+/// at most 1.
 class ErrorSpending {
 public:
     /// What the look at this part of the time, in [0, 1], may spend.
     double spend_at(double elapsed)
     {
-        const double all = std::clamp(elapsed * elapsed, spent_, 1.0);
+        const double all = std::max(0.5 * std::min(1.0, elapsed * elapsed), spent_);
         return all - std::exchange(spent_, all);
     }
     /// What the last look may spend.

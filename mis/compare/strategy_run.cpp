@@ -45,18 +45,19 @@ void StrategyRun::sample_round(const Round& round, std::span<const double> weigh
 {
     std::vector<std::vector<ChunkTotals>> totals;
     const std::vector<TileTotals> costs =
-        run_tiles(round.allocation, round.replicates, weights, totals, workspaces, executor);
+        run_tiles(round.allocation, round.end - round.first, weights, totals, workspaces, executor);
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         TileSums& tile = tiles_[t];
         tile.replicates.resize(static_cast<std::size_t>(round.replicates));
         const double n = round.allocation[t];
-        for (std::size_t r = 0; r < tile.replicates.size(); ++r) {
-            tile.replicates[r].mean += n * totals[t][r].mean;
-            tile.replicates[r].variance += (n - 1) * totals[t][r].variance;
-            tile.replicates[r].relative_variance += (n - 1) * totals[t][r].relative_variance;
+        for (std::size_t r = 0; r < totals[t].size(); ++r) {
+            ReplicateSums& sums = tile.replicates[static_cast<std::size_t>(round.first) + r];
+            sums.totals.mean += n * totals[t][r].mean;
+            sums.totals.variance += (n - 1) * totals[t][r].variance;
+            sums.totals.relative_variance += (n - 1) * totals[t][r].relative_variance;
+            sums.samples += n;
+            sums.degrees += n - 1;
         }
-        tile.mean_weight += n;
-        tile.variance_weight += n - 1;
     }
     if (round.is_timed) times_.push_back(observed(costs));
 }
@@ -155,20 +156,22 @@ void StrategyRun::add_replicates(StrategyMeasurements& m) const
     for (std::size_t t = 0; t < points_->figure_tiles; ++t)
         region_points[points_->region_of(t)] += points_->shading.tiles[t].count;
     for (std::size_t r = 0; r < tiles_.front().replicates.size(); ++r) {
+        if (tiles_.front().replicates[r].samples == 0) break;  // stopped before its turn
         ReplicateValues values;
-        std::vector<double> region_means(points_->regions);
+        std::vector<double> region_means(points_->regions), region_variances(points_->regions);
         for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
-            const TileSums& tile = tiles_[t];
-            const double mean = tile.replicates[r].mean / tile.mean_weight;
-            const double per_degree =
-                tile.variance_weight > 0 ? 1 / (tile.variance_weight * points) : 0;
+            const ReplicateSums& sums = tiles_[t].replicates[r];
+            const double mean = sums.totals.mean / sums.samples;
+            const double per_degree = sums.degrees > 0 ? 1 / (sums.degrees * points) : 0;
             values.mean += mean / points;
-            values.variance += tile.replicates[r].variance * per_degree;
-            values.relative_variance += tile.replicates[r].relative_variance * per_degree;
+            values.variance += sums.totals.variance * per_degree;
+            region_variances[points_->region_of(t)] += sums.totals.variance * per_degree;
+            values.relative_variance += sums.totals.relative_variance * per_degree;
             region_means[points_->region_of(t)] += mean / region_points[points_->region_of(t)];
         }
         m.replicates.push_back(values);
         m.region_means.push_back(std::move(region_means));
+        m.region_variances.push_back(std::move(region_variances));
     }
 }
 

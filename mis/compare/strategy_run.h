@@ -19,10 +19,11 @@ public:
     StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
                 std::uint64_t seed);
 
-    /// What every point gets in a round: allocation[tile] samples for each of `replicates`.
+    /// What every point gets in a round: allocation[tile] samples for each of the replicates
+    /// [first, end) of `replicates`.
     struct Round {
         const Allocation& allocation;
-        int replicates;
+        int first, end, replicates;
         bool is_timed;  ///< the time is an observation
     };
 
@@ -48,10 +49,13 @@ public:
     StrategyMeasurements measurements(std::span<const double> scale) const;
 
 private:
-    /// What a tile's samples came to: sums over its points, by replicate, times the weights beside.
+    /// What a replicate's samples came to: sums over a tile's points, times the weights beside.
+    struct ReplicateSums {
+        ChunkTotals totals;
+        double samples = 0, degrees = 0;  ///< Σ samples, Σ (samples − 1)
+    };
     struct TileSums {
-        std::vector<ChunkTotals> replicates;
-        double mean_weight = 0, variance_weight = 0;  ///< Σ samples, Σ (samples − 1) of a replicate
+        std::vector<ReplicateSums> replicates;
         TileTotals cost;
         std::uint64_t samples_per_point = 0;
     };

@@ -2,7 +2,6 @@
 
 #include "mis/compare/affordable.h"
 #include "mis/compare/pool.h"
-#include "mis/compare/resolved.h"
 #include "mis/compare/schedule.h"
 #include "mis/strategy/names.h"
 
@@ -91,6 +90,7 @@ private:
         if (!options_.spp) {
             costs_ = estimate_costs(ground(), strategies_, first_samples, 0.6 * cpu);
             plan_.replicates = replicates_for(sum_of_costs(), cpu);
+            plan_.parts = parts_for(sum_of_costs(), cpu);
         }
         std::vector<Strategy> quick;
         for (std::size_t s = 0; s < strategies_.size(); ++s) {
@@ -100,7 +100,8 @@ private:
         }
         if (is_stopped()) return;
         weights_ = rough_weights(ground());
-        if (!options_.spp) tile_factors_ = best_tile_factors(ground(), quick);
+        if (!options_.spp && 4 * sum_of_costs() < cpu)  // else there are few rounds, all of twos
+            tile_factors_ = best_tile_factors(ground(), quick);
         run_audit();
     }
 
@@ -123,7 +124,7 @@ private:
         return sum;
     }
 
-    /// `chunk` samples per replicate in the mean, at least two.
+    /// About `chunk` samples per replicate in the mean, at least two.
     Allocation allocation_of(int chunk) const
     {
         Allocation allocation;
@@ -143,7 +144,7 @@ private:
         audited_ = spread_points(*study_.points, std::min<std::size_t>(1024, affordable));
         std::vector<AuditPoint> at;
         for (const std::size_t p : audited_)
-            at.push_back({study_.points->shading.points[p], material_of(p)});
+            at.push_back({study_.points->shading.points[p], material_of(p), weights_[p]});
         std::vector<Strategy> run;
         for (std::size_t s = 0; s < strategies_.size(); ++s)
             if (study_.runs[s]) run.push_back(strategies_[s]);
@@ -163,11 +164,19 @@ private:
         return std::prev(after)->material;
     }
 
-    /// One round: every strategy in turn that does not rest, in random order. Times are compared
-    /// over the rounds that all took part in.
-    void round(int chunk)
+    /// `chunk` samples for every replicate: in one round, or in several in which they take turns.
+    void rounds(int chunk)
     {
         const Allocation allocation = allocation_of(chunk);
+        const int part = plan_.replicates / plan_.parts;
+        for (int first = 0; first < plan_.replicates && !is_stopped(); first += part)
+            round(allocation, first, first + part);
+    }
+
+    /// One round: every strategy in turn that does not rest, in random order. Times are compared
+    /// over the rounds that all took part in.
+    void round(const Allocation& allocation, int first, int end)
+    {
         const bool any_rests = std::find(rests_.begin(), rests_.end(), true) != rests_.end();
         const std::vector<std::size_t> order =
             round_order(strategies_.size(), options_.seed, rounds_++);
@@ -175,8 +184,8 @@ private:
         for (const std::size_t s : order) {
             if (is_stopped()) return;
             if (study_.runs[s] && !rests_[s])
-                study_.runs[s]->sample_round({allocation, plan_.replicates, !any_rests}, weights_,
-                                             workspaces_, executor_);
+                study_.runs[s]->sample_round({allocation, first, end, plan_.replicates, !any_rests},
+                                             weights_, workspaces_, executor_);
             show_progress(static_cast<double>(++done) / static_cast<double>(order.size()));
         }
     }
@@ -195,7 +204,7 @@ private:
         plan_ = plan_for(*options_.spp);
         if (points() == 0) return;
         for (const int chunk : plan_.chunks) {
-            round(chunk);
+            rounds(chunk);
             if (is_stopped()) return;
         }
         if (plan_.remainder > 0)
@@ -209,11 +218,11 @@ private:
         if (points() == 0) return;
         double samples = 0, last_look = 0, round_seconds = 0;  // of one sample per replicate
         while (!is_stopped()) {
-            const int chunk = next_chunk(static_cast<int>(rounds_),
+            const int chunk = next_chunk(static_cast<int>(rounds_) / plan_.parts,
                                          budget() - seconds_since(start_), round_seconds);
             if (chunk == 0) return;
             const Clock::time_point before = Clock::now();
-            round(chunk);
+            rounds(chunk);
             round_seconds = seconds_since(before) / chunk;
             samples += chunk;
             if (is_stopped() || rounds_ < 3 || samples < 1.4 * last_look) continue;
@@ -225,17 +234,11 @@ private:
         }
     }
 
-    /// What is decided rests, so that the undecided get its time; and so does what is not resolved
-    /// and would not be in the time that there is.
+    /// What no undecided pair waits for rests, so that the undecided get its time; where there is
+    /// no such pair, nothing does.
     void let_rest()
     {
-        const double more = budget() / seconds_since(start_);
-        for (std::size_t s = 0; s < rests_.size(); ++s) {
-            const StrategyReport& report = study_.report.strategies[s];
-            rests_[s] = report.status != Status::not_resolved ||
-                        report.effective_samples > least_participation ||
-                        report.effective_samples * more < least_participation;
-        }
+        rests_.assign(rests_.size(), true);
         for (const PairReport& pair : study_.report.pairs)
             if (pair.verdict == Verdict::undecided)
                 rests_[static_cast<std::size_t>(pair.a)] =
@@ -336,16 +339,25 @@ private:
 
     void add_audit(StrategyMeasurements& m, std::size_t s) const
     {
-        double sum = 0, squares = 0;
+        const double n = static_cast<double>(audited_.size());
+        double squares = 0, relative_squares = 0;
+        Audit own{.available = true, .relative_available = true};
         for (const std::size_t p : audited_) {
             const Moments& moments = study_.runs[s]->results()[p].luminance;
             if (moments.count < 2) return;
-            sum += moments.variance();
-            squares += moments.variance_se() * moments.variance_se();
+            const double variance = moments.variance() / n, se = moments.variance_se() / n;
+            own.own_variance += variance;
+            own.own_relative_variance += variance * weights_[p];
+            squares += se * se;
+            relative_squares += se * se * weights_[p] * weights_[p];
         }
-        const double n = static_cast<double>(audited_.size());
-        m.audit = {true, audit_[s].variance, audit_[s].variance_se, sum / n,
-                   std::sqrt(squares) / n};
+        own.own_variance_se = std::sqrt(squares);
+        own.own_relative_variance_se = std::sqrt(relative_squares);
+        own.variance_from_others = audit_[s].variance;
+        own.variance_from_others_se = audit_[s].variance_se;
+        own.relative_variance_from_others = audit_[s].relative_variance;
+        own.relative_variance_from_others_se = audit_[s].relative_variance_se;
+        m.audit = own;
     }
 
     void finish()

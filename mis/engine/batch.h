@@ -47,6 +47,7 @@ template <class T> struct Batch {
     int samples = 0;                             ///< in this batch: slots 0 … samples − 1
     int rows = 0;                                ///< of the half that runs now
     std::uint32_t draw = 0;                      ///< number of the draw within the sample
+    bool rows_are_samples = false;               ///< all of them, in order: start_rows() did so
     std::size_t points = 0;                      ///< shading points that have a table here
     std::uint64_t invalid = 0, shadow_rays = 0;  ///< counted over all batches
 

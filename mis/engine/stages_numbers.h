@@ -1,13 +1,13 @@
 #pragma once
 
 #include "mis/engine/rows.h"
-#include "mis/sampling/random.h"
+#include "mis/sampling/philox_lanes.h"
 
 namespace mis {
 inline namespace MIS_ISA {
 
-// The random numbers of one draw of every row. Counters are gathered first, so that what remains is
-// one loop without a branch, which compilers turn into lanes.
+// The random numbers of one draw of every row. Counters are gathered first, then scrambled in
+// lanes; rows beyond the last scramble what was there.
 
 struct WordColumns {
     alignas(64) Column<std::uint32_t> a, b, c, d;
@@ -27,10 +27,8 @@ void gather_counters(const TileJob<T>& job, const Batch<T>& batch, Block block, 
 
 inline void scramble(std::uint64_t seed, int rows, WordColumns& words)
 {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rows); ++i) {
-        const Words out = scrambled(seed, {words.a[i], words.b[i], words.c[i], words.d[i]});
-        words.a[i] = out[0], words.b[i] = out[1], words.c[i] = out[2], words.d[i] = out[3];
-    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rows); i += PhiloxLanes::count)
+        scramble_lanes(seed, {&words.a[i], &words.b[i], &words.c[i], &words.d[i]});
 }
 
 /// → bits, u, v.

@@ -4,29 +4,40 @@
 #include "mis/math/frame.h"
 #include "mis/sampling/random.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mis {
 
+namespace {
+
+template <class T> void fill(VecColumn<T>& column, int first, int end, const Vec3<T>& v)
+{
+    std::fill(column.x.begin() + first, column.x.begin() + end, v.x);
+    std::fill(column.y.begin() + first, column.y.begin() + end, v.y);
+    std::fill(column.z.begin() + first, column.z.begin() + end, v.z);
+}
+
+}  // namespace
+
 template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
 {
+    if (batch.rows_are_samples) return;  // as the half before left them
+    batch.rows_are_samples = true;
     batch.rows = batch.samples;
-    std::int32_t last_point = -1;
-    Vec3<T> x{0, 0, 0}, n{0, 0, 1}, wo{0, 0, 1};
-    for (int row = 0; row < batch.rows; ++row) {
-        const auto i = static_cast<std::size_t>(row);
-        batch.slot[i] = row;
-        batch.point[i] = batch.sample_point[i];
-        if (batch.point[i] != last_point) {  // the samples of a point stand together
-            last_point = batch.point[i];
-            const ShadingPoint& point = shading_point(job, batch, row);
-            x = vec_cast<T>(point.x - job.origin);
-            n = vec_cast<T>(point.n);
-            wo = frame_around(n).to_local(vec_cast<T>(point.wo));
-        }
-        batch.x.put(row, x);
-        batch.n.put(row, n);
-        batch.wo.put(row, wo);
+    std::iota(batch.slot.begin(), batch.slot.begin() + batch.rows, 0);
+    std::copy_n(batch.sample_point.begin(), batch.rows, batch.point.begin());
+    for (int row = 0; row < batch.rows;) {  // the samples of a point stand together
+        const std::int32_t p = batch.point[static_cast<std::size_t>(row)];
+        int end = row + 1;
+        while (end < batch.rows && batch.point[static_cast<std::size_t>(end)] == p) ++end;
+        const ShadingPoint& point = shading_point(job, batch, row);
+        const Vec3<T> n = vec_cast<T>(point.n);
+        fill(batch.x, row, end, vec_cast<T>(point.x - job.origin));
+        fill(batch.n, row, end, n);
+        fill(batch.wo, row, end, frame_around(n).to_local(vec_cast<T>(point.wo)));
+        row = end;
     }
     const int padded = std::min((batch.rows + 15) / 16 * 16, batch_capacity);
     for (int row = batch.rows; row < padded; ++row) {
@@ -44,6 +55,7 @@ namespace {
 /// Moves the kept rows to the front, with all that the later stages of either half read.
 template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
 {
+    batch.rows_are_samples = false;
     int kept = 0;
     for (int row = 0; row < batch.rows; ++row) {
         if (!keep(row)) continue;

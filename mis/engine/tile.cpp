@@ -38,7 +38,7 @@ template <class T> struct Workspace<T>::Run {
     Scratch& scratch;
     Column<double>& luminances;
     std::array<std::uint64_t, stage_names.size()> stage_ticks{};
-    Moments chunk;  ///< of the point and chunk at hand
+    Spread chunk;  ///< of the point and chunk at hand
 
     void all()
     {
@@ -100,6 +100,7 @@ template <class T> struct Workspace<T>::Run {
             run_half(pipeline.bsdf, static_cast<std::uint32_t>(draw));
         take_in();
         batch.samples = 0;
+        batch.rows_are_samples = false;
     }
 
     void run_half(const std::vector<NamedStage<T>>& stages, std::uint32_t draw)
@@ -120,32 +121,39 @@ template <class T> struct Workspace<T>::Run {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.samples); ++i)
             luminances[i] = luminance(batch.value.at(static_cast<int>(i)));
         for (std::size_t first = 0; first < static_cast<std::size_t>(batch.samples);) {
-            const std::uint64_t number = batch.sample_number[first] - range.first;
-            const auto left_of_chunk = static_cast<std::size_t>(range.chunk) -
-                                       number % static_cast<std::size_t>(range.chunk);
-            const std::size_t count =
-                std::min(left_of_chunk, static_cast<std::size_t>(batch.samples) - first);
-            PointResult& result =
-                results[batch.tile_point[static_cast<std::size_t>(batch.sample_point[first])]];
-            chunk.merge(Moments::of(std::span<const double>(&luminances[first], count)));
-            for (std::size_t i = first; i < first + count; ++i)
-                result.radiance_sum += batch.value.at(static_cast<int>(i));
-            if (count == left_of_chunk)
-                end_chunk(result, number / static_cast<std::size_t>(range.chunk));
-            first += count;
+            const std::int32_t slot = batch.sample_point[first];
+            std::size_t end = first + 1;
+            while (end < static_cast<std::size_t>(batch.samples) && batch.sample_point[end] == slot)
+                ++end;
+            const std::size_t point = batch.tile_point[static_cast<std::size_t>(slot)];
+            results[point].luminance.merge(
+                Moments::of(std::span<const double>(&luminances[first], end - first)));
+            for (std::size_t i = first; i < end; ++i)
+                results[point].radiance_sum += batch.value.at(static_cast<int>(i));
+            if (!totals.empty()) add_to_chunks(point, first, end);
+            first = end;
         }
     }
 
-    void end_chunk(PointResult& result, std::size_t number)
+    /// Samples [first, end) of the batch, which are of one point, one chunk after the other.
+    void add_to_chunks(std::size_t point, std::size_t first, std::size_t end)
     {
-        const auto point = static_cast<std::size_t>(&result - results.data());
-        result.luminance.merge(chunk);
-        if (!totals.empty()) {
-            const double variance = chunk.count > 1 ? chunk.variance() : 0;
-            totals[number].mean += chunk.mean;
-            totals[number].variance += variance;
-            if (!weights.empty()) totals[number].relative_variance += variance * weights[point];
+        const auto size = static_cast<std::size_t>(range.chunk);
+        auto number = static_cast<std::size_t>(batch.sample_number[first] - range.first);
+        while (first < end) {
+            const std::size_t count = std::min(size - number % size, end - first);
+            chunk.merge(Spread::of(std::span<const double>(&luminances[first], count)));
+            first += count, number += count;
+            if (number % size == 0) end_chunk(point, number / size - 1);
         }
+    }
+
+    void end_chunk(std::size_t point, std::size_t number)
+    {
+        const double variance = chunk.count > 1 ? chunk.m2 / (chunk.count - 1) : 0;
+        totals[number].mean += chunk.mean;
+        totals[number].variance += variance;
+        if (!weights.empty()) totals[number].relative_variance += variance * weights[point];
         chunk = {};
     }
 };

@@ -49,6 +49,33 @@ private:
 };
 static_assert(sizeof(Moments) == 40);
 
+/// Count, mean and sum of squared distances from it: as much of the moments as a variance takes.
+struct Spread {
+    double count = 0, mean = 0, m2 = 0;
+
+    /// Of all of `samples`, in two passes.
+    static Spread of(std::span<const double> samples)
+    {
+        Spread spread{static_cast<double>(samples.size()), 0, 0};
+        for (const double x : samples) spread.mean += x;
+        spread.mean /= spread.count;
+        for (const double x : samples) spread.m2 += (x - spread.mean) * (x - spread.mean);
+        return spread;
+    }
+    /// All that `other` holds, too (Chan, Golub and LeVeque 1983).
+    void merge(const Spread& other)
+    {
+        if (count == 0) {
+            *this = other;
+            return;
+        }
+        const double n = count + other.count, delta = other.mean - mean;
+        m2 += other.m2 + delta * delta * count * other.count / n;
+        mean += delta * other.count / n;
+        count = n;
+    }
+};
+
 template <std::floating_point T> Moments Moments::of(std::span<const T> samples)
 {
     Moments result;

@@ -78,13 +78,14 @@ public:
     {
         if (!(inverse_total_ > 0)) return {-1, 0};
         // Below the total even when the product rounds up to it.
-        const double target =
-            static_cast<double>(bits >> 11) * (0x1p-53 * (1 - 0x1p-52)) * sums_.back();
+        const double target = static_cast<double>(static_cast<std::int64_t>(bits >> 11)) *
+                              (0x1p-53 * (1 - 0x1p-52)) * sums_.back();
         // The first sum above the target; it never is that of a weight of 0.
         std::size_t first = 0, count = sums_.size();
         while (count > 1) {
             const std::size_t half = count / 2;
-            first = sums_[first + half - 1] <= target ? first + half : first;
+            first +=
+                half * static_cast<std::size_t>(sums_[first + half - 1] <= target);  // no branch
             count -= half;
         }
         const auto light = static_cast<std::int32_t>(first);
@@ -94,7 +95,9 @@ public:
     MIS_INLINE double probability(std::int32_t light) const
     {
         const auto i = static_cast<std::size_t>(light);
-        return (sums_[i] - (i == 0 ? 0 : sums_[i - 1])) * inverse_total_;
+        const std::size_t has_lower =
+            i > 0 ? 1 : 0;  // by arithmetic: as a branch it is mispredicted
+        return (sums_[i] - sums_[i - has_lower] * static_cast<double>(has_lower)) * inverse_total_;
     }
 
     RunningSum() = default;

@@ -23,16 +23,21 @@ enum class Block : std::uint32_t { light = 0, bsdf = 1 };
 
 using Words = std::array<std::uint32_t, 4>;
 
-namespace detail {
-/// One round of Philox-4×32.
-MIS_INLINE Words philox_round(const Words& c, std::uint32_t key0, std::uint32_t key1)
+/// Philox-4×32 with the seven rounds that pass BigCrush.
+/// Source: Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", table 2.
+namespace philox {
+inline constexpr int rounds = 7;
+inline constexpr std::uint32_t multiplier0 = 0xD2511F53u, multiplier1 = 0xCD9E8D57u,
+                               step0 = 0x9E3779B9u, step1 = 0xBB67AE85u;
+
+MIS_INLINE Words one_round(const Words& c, std::uint32_t key0, std::uint32_t key1)
 {
-    const std::uint64_t a = std::uint64_t{0xD2511F53u} * c[0],
-                        b = std::uint64_t{0xCD9E8D57u} * c[2];
+    const std::uint64_t a = std::uint64_t{multiplier0} * c[0],
+                        b = std::uint64_t{multiplier1} * c[2];
     return {static_cast<std::uint32_t>(b >> 32) ^ c[1] ^ key0, static_cast<std::uint32_t>(b),
             static_cast<std::uint32_t>(a >> 32) ^ c[3] ^ key1, static_cast<std::uint32_t>(a)};
 }
-}  // namespace detail
+}  // namespace philox
 
 /// The counter of a block, as the four words that are scrambled.
 MIS_INLINE Words counter_words(const Counter& counter, Block block)
@@ -42,15 +47,14 @@ MIS_INLINE Words counter_words(const Counter& counter, Block block)
         static_cast<std::uint32_t>(counter.sample >> 32) << 1 | static_cast<std::uint32_t>(block)};
 }
 
-/// Philox-4×32 with the seven rounds that pass BigCrush.
-/// Source: Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", table 2.
+/// The random words of a counter.
 MIS_INLINE Words scrambled(std::uint64_t seed, Words c)
 {
     auto key0 = static_cast<std::uint32_t>(seed), key1 = static_cast<std::uint32_t>(seed >> 32);
-    for (int round = 0; round < 7; ++round) {
-        c = detail::philox_round(c, key0, key1);
-        key0 += 0x9E3779B9u;
-        key1 += 0xBB67AE85u;
+    for (int round = 0; round < philox::rounds; ++round) {
+        c = philox::one_round(c, key0, key1);
+        key0 += philox::step0;
+        key1 += philox::step1;
     }
     return c;
 }

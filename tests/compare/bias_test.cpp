@@ -103,6 +103,18 @@ TEST(Bias, OfTheWholeImageIsOnePastAnAudit)
     EXPECT_FALSE(may_lack_rare_samples(finding, strategies[4]));
 }
 
+TEST(Bias, OfAMeanThatIsTooHighMayBeRareDimSamplesThatWereNeverDrawn)
+{
+    // 16384 samples leave 4e-4 of the probability unseen.
+    std::vector<StrategyMeasurements> two{simulate("right", uniform_samples(1e-10)),
+                                          simulate("high", scaled(uniform_samples(1e-10), 1.0002))};
+    EXPECT_EQ(biased_in(two), "high ");
+    EXPECT_TRUE(may_lack_rare_samples(found_in(two)[1], two[1]));
+    two[1] = simulate("high", scaled(uniform_samples(1e-10), 1.001));
+    EXPECT_EQ(biased_in(two), "right high ");
+    EXPECT_FALSE(may_lack_rare_samples(found_in(two)[1], two[1]));
+}
+
 TEST(Bias, OfTwoThatDifferIsLaidOnNeitherAlone)
 {
     const std::vector<StrategyMeasurements> two{simulate("a", uniform_samples(0.01)),

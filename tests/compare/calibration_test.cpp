@@ -16,6 +16,8 @@
 namespace mis {
 namespace {
 
+double as_double(std::size_t n) { return static_cast<double>(n); }
+
 struct Tail {
     double terms, sigma;  ///< per replicate; of the logarithm
     double mean() const { return terms * std::exp(0.5 * sigma * sigma); }
@@ -96,6 +98,44 @@ TEST(Calibration, EqualVariancesAreSeldomCalledApart)
             << tail.sigma;
     EXPECT_GT(share_of_false_families(resolved_tails[0], 6, runs, 0.9),
               0.2);  // the twin: it does call
+}
+
+/// The same variances, each the sum of as many regions, of which the first carries this share.
+RegionSums draw_regions(double terms, double sigma, std::size_t regions, double first, Random& bits)
+{
+    RegionSums drawn(16, std::vector<double>(regions));
+    std::lognormal_distribution<double> term(0, sigma);
+    for (std::size_t g = 0; g < regions; ++g) {
+        std::poisson_distribution<int> count(
+            terms * (g == 0 ? first : (1 - first) / as_double(regions - 1)));
+        for (std::vector<double>& replicate : drawn)
+            for (int k = count(bits); k > 0; --k) replicate[g] += term(bits);
+    }
+    return drawn;
+}
+
+TEST(Calibration, ErrorsAddedUpByRegionMissAsOftenAsTheySay)
+{
+    constexpr int runs = 2000;
+    Random bits(6);
+    for (const double first : {1.0 / 64, 0.5, 0.95}) {
+        int missed = 0, called = 0;
+        double dof = 0;
+        for (int run = 0; run < runs; ++run) {
+            const RegionSums a = draw_regions(60, 1, 64, first, bits),
+                             b = draw_regions(60, 1, 64, first, bits);
+            const Interval interval = interval_of(log_contrast(a, {}));
+            const double mean = 60 * std::exp(0.5);
+            missed += !(interval.low <= mean && mean <= interval.high);
+            called += two_sided_p(log_contrast(a, b)) < 0.01;
+            dof += log_contrast(a, b).dof / runs;
+        }
+        EXPECT_LT(missed / double(runs), rate_bound(0.06, runs)) << first;
+        EXPECT_LT(called / double(runs), rate_bound(0.012, runs)) << first;
+        EXPECT_GT(missed / double(runs), 0.03) << first;
+        EXPECT_GT(dof, first < 0.1 ? 100 : 15);
+        EXPECT_LT(dof, first > 0.9 ? 25 : 1000);
+    }
 }
 
 TEST(Calibration, VariancesBeyondTheMarginAreSeldomCalledTied)

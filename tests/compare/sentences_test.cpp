@@ -67,7 +67,7 @@ TEST(Sentences, SayWhereEfficiencyAndTimeToOnePercentDisagree)
     b.pooled.relative_variance *= 20;
     const std::string text = all_of(scene_of({a, b}));
     expect_said(text, "Use a/power: it reaches 1 % error 5");
-    expect_said(text, "Where only bright places matter, use b/power: by plain variance it is 4");
+    expect_said(text, "Where only bright places matter, use b/power: by plain variance it is 3.9");
 }
 
 TEST(Sentences, NameTiesAndTheUndecided)

@@ -60,16 +60,19 @@ inline StrategyMeasurements simulate(const std::string& policy, const SampleOf& 
     std::exponential_distribution<double> delay(1);
     for (std::size_t r = 0; r < sim.replicates; ++r) {
         std::vector<Moments> points(sim.points);
-        std::vector<double> regions(sim.regions, 0.0);
+        std::vector<double> regions(sim.regions, 0.0), region_variances(sim.regions, 0.0);
         for (std::size_t i = 0; i < sim.points; ++i) {
             for (std::size_t k = 0; k < sim.samples; ++k) points[i].add(sample(bits));
             merged[i].merge(points[i]);
             regions[i % sim.regions] +=
                 points[i].mean * static_cast<double>(sim.regions) / static_cast<double>(sim.points);
+            region_variances[i % sim.regions] +=
+                points[i].variance() / static_cast<double>(sim.points);
         }
         const PooledFigures figures = pool_points(points, scale);
         s.replicates.push_back({figures.mean, figures.variance, figures.relative_variance});
         s.region_means.push_back(regions);
+        s.region_variances.push_back(region_variances);
         const double late = 1 + sim.clock_noise * delay(bits);
         s.times.push_back({sim.seconds_per_sample * late, sim.seconds_per_point * late});
     }
