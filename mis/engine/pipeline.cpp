@@ -26,11 +26,9 @@ const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view 
                             std::string(bsdf));
 }
 
-/// Surfaces, then sum: how either half ends.
-template <class T> void add_ending(std::vector<NamedStage<T>>& stages, const Effects& effects)
+template <class T> void add_surfaces(std::vector<NamedStage<T>>& stages, const Effects& effects)
 {
     if (effects.shadows) stages.push_back({StageKind::rays, hide_by_surfaces<T>});
-    stages.push_back({StageKind::add, add_contributions<T>});
 }
 
 template <class T>
@@ -48,12 +46,15 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
         stages.push_back({StageKind::meet, policy.sum_light_draw});
     stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
     stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_light});
+    // The cheaper question first: what one answer hides, the other is not asked about.
+    const bool is_screened = effects.lights <= most_screened_lights;
+    if (!is_screened) add_surfaces(stages, effects);
     if (!technique.sums_lights && effects.light_occlusion) {
-        if (effects.lights <= most_screened_lights)
-            stages.push_back({StageKind::light_occlusion, kernels.screen_hiding});
+        if (is_screened) stages.push_back({StageKind::light_occlusion, kernels.screen_hiding});
         stages.push_back({StageKind::light_occlusion, hide_by_lights<T>});
     }
-    add_ending(stages, effects);
+    if (is_screened) add_surfaces(stages, effects);
+    stages.push_back({StageKind::add, add_contributions<T>});
     return stages;
 }
 
@@ -77,7 +78,8 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
         stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
     stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
     stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_bsdf});
-    add_ending(stages, effects);
+    add_surfaces(stages, effects);
+    stages.push_back({StageKind::add, add_contributions<T>});
     return stages;
 }
 
@@ -97,7 +99,8 @@ std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Stra
     stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
     stages.push_back({StageKind::bsdf, draw.pdf});
     stages.push_back({StageKind::weigh, kernels.weigh_alone});
-    add_ending(stages, effects);
+    add_surfaces(stages, effects);
+    stages.push_back({StageKind::add, add_contributions<T>});
     return stages;
 }
 

@@ -6,7 +6,6 @@ namespace mis {
 
 namespace {
 
-constexpr std::uint32_t leaf_size = 4;
 constexpr int bins = 16;
 
 struct Box {
@@ -46,16 +45,52 @@ Vec3<double> middle_of(const Lights& lights)
     return middle;
 }
 
+/// A range of the order, and the box around its lights.
+struct Range {
+    std::uint32_t first, end;
+    std::uint32_t count() const { return end - first; }
+};
+
+/// Puts boxes onto the grid of a node, outwards.
+class Grid {
+public:
+    Grid(LightHierarchy::Node& node, const Box& around) : node_(node)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            node.origin[a] = rounded_down(around.low[axis]);
+            const double extent = around.high[axis] - static_cast<double>(node.origin[a]);
+            node.step[a] = std::max(rounded_up(extent / 255 * (1 + 1e-6)), 1e-30F);
+        }
+    }
+    void put(std::size_t child, const Box& box)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            const double origin = static_cast<double>(node_.origin[a]),
+                         step = static_cast<double>(node_.step[a]);
+            const double low = std::floor((box.low[axis] - origin) / step),
+                         high = std::ceil((box.high[axis] - origin) / step);
+            node_.low[a][child] = static_cast<std::uint8_t>(std::clamp(low, 0.0, 255.0));
+            node_.high[a][child] = static_cast<std::uint8_t>(std::clamp(high, 0.0, 255.0));
+        }
+    }
+
+private:
+    LightHierarchy::Node& node_;
+};
+
 }  // namespace
 
-/// Splits by the surface-area heuristic over 16 bins of the centres (Wald 2007).
+/// Splits by the surface-area heuristic over 16 bins of the centres (Wald 2007), eight at a time.
 struct LightHierarchy::Builder {
     LightHierarchy& tree;
+    std::vector<LightIndex> leaves = {};  ///< the order in which nodes name their lights
 
-    Box bounds(std::uint32_t first, std::uint32_t end) const
+    Box bounds(const Range& range) const
     {
         Box box;
-        for (std::uint32_t i = first; i < end; ++i) {
+        for (std::uint32_t i = range.first; i < range.end; ++i) {
             const Light& light = light_at(i);
             box.add(light.center - tree.origin_ - light.radius);
             box.add(light.center - tree.origin_ + light.radius);
@@ -67,23 +102,54 @@ struct LightHierarchy::Builder {
         return (*tree.lights_)[static_cast<std::size_t>(tree.order_[i])];
     }
 
-    void build(std::uint32_t first, std::uint32_t end, int depth)
+    /// Fills node `self` with the lights of `range`.
+    void build(std::size_t self, const Range& range, int depth)
     {
-        const std::size_t self = tree.nodes_.size();
-        const Box box = bounds(first, end);
+        std::vector<Range> inner, single;
+        for (const Range& part : children_of(range, depth))
+            (part.count() > 1 ? inner : single).push_back(part);
         Node node{};
-        for (int axis = 0; axis < 3; ++axis) {
-            node.low[static_cast<std::size_t>(axis)] = rounded_down(box.low[axis]);
-            node.high[static_cast<std::size_t>(axis)] = rounded_up(box.high[axis]);
+        Grid grid(node, bounds(range));
+        node.nodes = static_cast<std::uint8_t>(inner.size());
+        node.lights = static_cast<std::uint8_t>(single.size());
+        node.first_node = static_cast<std::uint32_t>(tree.nodes_.size());
+        node.first_light = static_cast<std::uint32_t>(leaves.size());
+        for (std::size_t k = 0; k < inner.size(); ++k) grid.put(k, bounds(inner[k]));
+        for (std::size_t k = 0; k < single.size(); ++k) {
+            grid.put(inner.size() + k, bounds(single[k]));
+            leaves.push_back(tree.order_[single[k].first]);
         }
-        node.first = first;
-        node.count = end - first <= leaf_size ? end - first : 0;
-        tree.nodes_.push_back(node);
-        if (node.count != 0) return;
-        const std::uint32_t middle = split(first, end, depth);
-        build(first, middle, depth + 1);
-        tree.nodes_[self].first = static_cast<std::uint32_t>(tree.nodes_.size());
-        build(middle, end, depth + 1);
+        tree.nodes_[self] = node;
+        tree.nodes_.resize(tree.nodes_.size() + inner.size());
+        for (std::size_t k = 0; k < inner.size(); ++k)
+            build(node.first_node + k, inner[k], depth + 3);
+    }
+
+    /// At most eight parts: as few as hold at most eight lights each; in the room that is left,
+    /// small ones light by light.
+    std::vector<Range> children_of(const Range& range, int depth)
+    {
+        std::vector<Range> parts{range};
+        const auto by_count = [](const Range& a, const Range& b) { return a.count() < b.count(); };
+        while (parts.size() < width) {
+            const auto largest = std::max_element(parts.begin(), parts.end(), by_count);
+            if (largest->count() <= width) break;
+            const std::uint32_t middle = split(largest->first, largest->end, depth);
+            const Range right{middle, largest->end};
+            largest->end = middle;
+            parts.push_back(right);
+        }
+        std::sort(parts.begin(), parts.end(), by_count);
+        std::size_t room = width - parts.size();
+        std::vector<Range> opened;
+        for (const Range& part : parts) {
+            const bool opens = part.count() <= room + 1;
+            for (std::uint32_t i = part.first; opens && i < part.end; ++i)
+                opened.push_back({i, i + 1});
+            if (opens) room -= part.count() - 1;
+            else opened.push_back(part);
+        }
+        return opened;
     }
 
     /// Orders the range in two and gives the border. Deep down it halves, so that depth stays below
@@ -148,13 +214,34 @@ struct LightHierarchy::Builder {
     }
 };
 
+namespace {
+
+/// May p be in the box of child k?
+bool may_hold(const LightHierarchy::Node& node, std::size_t k, const Vec3<float>& p)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const float margin =
+            1e-6F * (std::abs(p[axis]) + std::abs(node.origin[a]) + 255 * node.step[a]);
+        const float low = node.origin[a] + static_cast<float>(node.low[a][k]) * node.step[a],
+                    high = node.origin[a] + static_cast<float>(node.high[a][k]) * node.step[a];
+        if (p[axis] < low - margin || p[axis] > high + margin) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
 LightHierarchy::LightHierarchy(const Lights& lights) : lights_(&lights), order_(lights.size())
 {
     if (lights.empty()) return;
     origin_ = middle_of(lights);
     for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<LightIndex>(i);
-    nodes_.reserve(order_.size());
-    Builder{*this}.build(0, static_cast<std::uint32_t>(order_.size()), 0);
+    nodes_.reserve(order_.size() / 3 + 1);
+    nodes_.resize(1);
+    Builder builder{*this};
+    builder.build(0, {0, static_cast<std::uint32_t>(order_.size())}, 0);
+    order_ = std::move(builder.leaves);
     nodes_.shrink_to_fit();
 }
 
@@ -162,34 +249,29 @@ bool LightHierarchy::contains(const Vec3<double>& x) const
 {
     if (nodes_.empty()) return false;
     const Vec3<float> p = vec_cast<float>(x - origin_);
-    std::array<std::uint32_t, 64> stack;  // NOLINT: filled before it is read
+    std::array<std::uint32_t, most_waiting> stack;  // NOLINT: filled before it is read
     std::size_t depth = 0;
-    std::uint32_t current = 0;
-    while (true) {
-        const Node& node = nodes_[current];
-        bool inside = true;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const float c = p[static_cast<int>(a)], margin = std::abs(c) * 1.2e-7F;
-            inside = inside && node.low[a] - margin <= c && c <= node.high[a] + margin;
-        }
-        if (inside && node.count == 0) {
-            stack[depth++] = node.first;
-            ++current;
-            continue;
-        }
-        for (std::uint32_t i = node.first; inside && i < node.first + node.count; ++i) {
-            const Light& light = (*lights_)[static_cast<std::size_t>(order_[i])];
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const Node& node = nodes_[stack[--depth]];
+        for (std::uint32_t k = 0; k < std::uint32_t{node.nodes} + node.lights; ++k) {
+            if (!may_hold(node, k, p)) continue;
+            if (k < node.nodes) {
+                stack[depth++] = node.first_node + k;
+                continue;
+            }
+            const auto j = static_cast<std::size_t>(order_[node.first_light + k - node.nodes]);
+            const Light& light = (*lights_)[j];
             if (length(light.center - x) <= light.radius) return true;
         }
-        if (depth == 0) return false;
-        current = stack[--depth];
     }
+    return false;
 }
 
 LightHit LightHierarchy::nearest(const Vec3<double>& x, const Vec3<double>& wi) const
 {
     LightHit best;
-    walk(x, wi, best.distance, [&](const LightHit& hit) {
+    walk(x, wi, best.distance, no_light, [&](const LightHit& hit) {
         if (hit.distance < best.distance ||
             (hit.distance == best.distance && hit.light < best.light))
             best = hit;
@@ -201,8 +283,8 @@ LightHit LightHierarchy::nearest(const Vec3<double>& x, const Vec3<double>& wi) 
 bool LightHierarchy::hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit) const
 {
     bool hidden = false;
-    walk(x, wi, hit.distance, [&](const LightHit& other) {
-        if (other.light == hit.light || other.distance > hit.distance) return hit.distance;
+    walk(x, wi, hit.distance, hit.light, [&](const LightHit& other) {
+        if (other.distance > hit.distance) return hit.distance;
         if (other.distance < hit.distance || other.light < hit.light) hidden = true;
         return hidden ? 0.0 : hit.distance;
     });
