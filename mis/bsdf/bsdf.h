@@ -66,13 +66,13 @@ template <class T> MIS_INLINE T reflected_lobe_pdf(const T& lobe_value, const T&
 }
 
 /// s of design §1: the probability of drawing from the specular lobe; a black lobe has 0 unless the
-/// scene says so. Rounded up to a multiple of 2⁻²⁴, the step of a float's random number: what is
-/// less than s then comes out with probability s exactly, however small it is.
+/// scene says so. Rounded up to a multiple of 2⁻³², the step of a random number, which matters
+/// below 1e-4: a small s then is the probability of what it says to the last bit.
 inline double specular_share(const Material& material, double specular, double diffuse)
 {
     const double s =
         material.specular_probability.value_or(specular > 0 ? specular / (specular + diffuse) : 0);
-    return std::ceil(s * 0x1p24) * 0x1p-24;
+    return std::ceil(s * 0x1p32) * 0x1p-32;
 }
 
 /// A BSDF of a diffuse lobe and a lobe cos^m θ_h about the half vector:

@@ -65,12 +65,18 @@ MIS_INLINE Words random_words(std::uint64_t seed, const Counter& counter, Block 
     return scrambled(seed, counter_words(counter, block));
 }
 
-/// A word as a number in [0, 1): 24 bits of it in float, all 32 in double.
+/// A word over 2³² as a number in [0, 1). In float it is rounded, and held below 1; small ones keep
+/// all of their bits, so that what is rare is drawn as often as it should be.
 template <class T> MIS_INLINE T unit_number(std::uint32_t word)
 {
-    if constexpr (sizeof(T) == 4)
-        return static_cast<T>(static_cast<std::int32_t>(word >> 8)) * T(0x1p-24);
-    else return static_cast<T>(word) * T(0x1p-32);
+    if constexpr (sizeof(T) == 4) {
+        const T high = static_cast<T>(static_cast<std::int32_t>(word >> 16)) * T(0x1p-16),
+                low = static_cast<T>(static_cast<std::int32_t>(word & 0xFFFFU)) * T(0x1p-32);
+        const T number = high + low, below_1 = T(1 - 0x1p-24);
+        return number < below_1 ? number : below_1;
+    } else {
+        return static_cast<T>(word) * T(0x1p-32);
+    }
 }
 
 /// The 64 bits of a discrete choice.

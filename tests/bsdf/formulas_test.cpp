@@ -12,6 +12,12 @@
 namespace mis {
 namespace {
 
+/// s of design §1, on the grid of random numbers.
+double share(double specular, double diffuse)
+{
+    return std::ceil(specular / (specular + diffuse) * 0x1p32) * 0x1p-32;
+}
+
 constexpr double pi_ = std::numbers::pi;
 
 /// body(wo, wi, n·h, wo·h) for pairs of directions above the horizon.
@@ -42,7 +48,7 @@ TEST(Lecture, IsKdPlusKsCosToTheM)
     constexpr double m = 30;
     const Lecture bsdf({.diffuse = kd, .specular = ks, .exponent = m});
     const double a_d = pi_ * luminance(kd), a_s = luminance(ks) * 8 * pi_ / (m + 8),
-                 s = a_s / (a_d + a_s);
+                 s = share(a_s, a_d);
     for_each_pair([&](const auto& wo, const auto& wi, double n_h, double o_h) {
         const BsdfValue<double> value = bsdf.evaluate(wo, wi);
         EXPECT_NEAR(length(value.f - (kd + ks * std::pow(n_h, m))), 0, 1e-12);
@@ -55,7 +61,7 @@ TEST(Blinn, IsKdOverPiPlusTheNormalisedLobe)
 {
     constexpr double m = 30;
     const Blinn bsdf({.diffuse = kd, .specular = ks, .exponent = m});
-    const double s = luminance(ks) / (luminance(kd) + luminance(ks));
+    const double s = share(luminance(ks), luminance(kd));
     for_each_pair([&](const auto& wo, const auto& wi, double n_h, double o_h) {
         const BsdfValue<double> value = bsdf.evaluate(wo, wi);
         EXPECT_NEAR(length(value.f - (kd / pi_ + ks * ((m + 8) / (8 * pi_) * std::pow(n_h, m)))), 0,
@@ -76,7 +82,7 @@ TEST(Ggx, IsDTimesG2TimesFOverTheCosines)
 {
     for (const double alpha : {1.0, 0.4, 0.1}) {
         const Ggx bsdf({.diffuse = kd, .specular = ks, .alpha = alpha});
-        const double s = luminance(ks) / (luminance(kd) + luminance(ks)), a2 = alpha * alpha;
+        const double s = share(luminance(ks), luminance(kd)), a2 = alpha * alpha;
         for_each_pair([&](const auto& wo, const auto& wi, double n_h, double o_h) {
             const double t = n_h * n_h * (a2 - 1) + 1, d = a2 / (pi_ * t * t);
             const double g2 = 1 / (1 + lambda(wo.z, alpha) + lambda(wi.z, alpha)),
