@@ -45,7 +45,7 @@ int samples_for(const Strategy& s, const Predicted& p, std::size_t lights, int d
     const double per_sample = draws_every_light(s.policy) ? static_cast<double>(lights) : 1;
     const double most = draws_at_most / per_sample;
     const double kurtosis = p.variance > 0 ? p.fourth / square(p.variance) : 0;
-    return scaled(static_cast<int>(std::clamp(1001 * kurtosis, std::min(2000.0, most), most)));
+    return scaled(static_cast<int>(std::clamp(1001 * kurtosis, std::min(4000.0, most), most)));
 }
 
 /// A case with its predictions.
@@ -93,7 +93,7 @@ Verdict verdict_on(const Suite& suite, const Kernels<T>& kernels, int draws_at_m
 }
 
 /// The first instruction set in float, which most runs use, gets the most samples.
-constexpr int most_draws = 50'000, fewer_draws = 4'000;
+constexpr int most_draws = 40'000, fewer_draws = 4'000;
 
 int draws_of(std::size_t set, bool is_float)
 {
@@ -209,7 +209,9 @@ const Case& case_named(const std::vector<Case>& cases, std::string_view name)
 
 TEST(PlantedError, Of1PercentInTheLightsPdfIsSeen)
 {
-    const Suite suite(case_named(all_cases(), "cap_1e-2").scene);
+    Scene scene = case_named(all_cases(), "cap_1e-2").scene;
+    scene.lights.resize(1);  // without another, its variance is next to nothing: few samples do
+    const Suite suite(scene);
     expect_failure<float>(suite, Planted::light_pdf);
     expect_failure<double>(suite, Planted::light_pdf);
 }
