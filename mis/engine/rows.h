@@ -44,4 +44,11 @@ MIS_INLINE const ShadingPoint& shading_point(const TileJob<T>& job, const Batch<
         batch.point[static_cast<std::size_t>(row)])]];
 }
 
+/// wi in double and of length 1. As a float it is 6e-8 too long or too short, by which rays along
+/// the edge of a light that fills half the sky, 2e-4 rad of it, would miss it.
+template <class T> Vec3<double> unit_direction(const Batch<T>& batch, int row)
+{
+    return normalized(vec_cast<double>(batch.wi.at(row)));
+}
+
 }  // namespace mis

@@ -136,8 +136,8 @@ Vec3<double> exact_direction(const TileJob<T>& job, const Batch<T>& batch, int r
 {
     const Light& light =
         (*job.lights)[static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)])];
-    return normalized(light.center - shading_point(job, batch, row).x) +
-           vec_cast<double>(batch.offset.at(row));
+    return normalized(normalized(light.center - shading_point(job, batch, row).x) +
+                      vec_cast<double>(batch.offset.at(row)));
 }
 
 /// Where a light draw meets its own light; at the rim, where rounding may miss it, the nearest
@@ -192,7 +192,7 @@ template <class Table, class T> void sum_bsdf_draw(const TileJob<T>& job, Batch<
         const auto i = static_cast<std::size_t>(row);
         const Table& table = table_of<Table>(batch, batch.point[i]);
         const Vec3<double> x = shading_point(job, batch, row).x;
-        const Vec3<double> wi = vec_cast<double>(batch.wi.at(row));
+        const Vec3<double> wi = unit_direction(batch, row);
         double met = 0, others = 0;
         job.hierarchy->for_each_along(x, wi, [&](const LightHit& hit) {
             (hit.light == batch.light[i] ? met : others) +=

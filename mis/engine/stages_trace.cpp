@@ -102,8 +102,8 @@ template <class T> void meet_lights(const TileJob<T>& job, Batch<T>& batch)
     keep_rows(batch, [&](int row) {
         const auto i = static_cast<std::size_t>(row);
         if (is_zero(batch.wi, row) || (is_screened && batch.candidate[i] == 0)) return false;
-        const LightHit hit = job.hierarchy->nearest(shading_point(job, batch, row).x,
-                                                    vec_cast<double>(batch.wi.at(row)));
+        const LightHit hit =
+            job.hierarchy->nearest(shading_point(job, batch, row).x, unit_direction(batch, row));
         batch.light[i] = hit.light;
         batch.distance[i] = static_cast<T>(hit.distance);
         return hit.light >= 0;
@@ -129,7 +129,8 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
         const Vec3<double> x = shading_point(job, batch, row).x;
         // Axis in double plus the offset: the direction without its rounding to T.
         const Vec3<double> to_center = light.center - x;
-        const Vec3<double> wi = normalized(to_center) + vec_cast<double>(batch.offset.at(row));
+        const Vec3<double> wi =
+            normalized(normalized(to_center) + vec_cast<double>(batch.offset.at(row)));
         const double own = hit_distance(to_center, light.radius, wi);
         const LightHit hit{j, std::isfinite(own) ? own : dot(to_center, wi)};
         if (job.hierarchy->hides(x, wi, hit)) batch.contribution.put(row, Vec3<T>(T(0)));

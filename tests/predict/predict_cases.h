@@ -18,8 +18,9 @@ inline std::vector<Strategy> strategies_of(std::vector<std::string_view> names)
     return all;
 }
 
-/// Every policy × heuristic × technique × model that has a meaning, and those that choose no light.
-inline std::vector<Strategy> every_strategy()
+/// Every policy × heuristic × technique × model that has a meaning, with one draw each, and those
+/// that choose no light.
+inline std::vector<Strategy> every_plain_strategy()
 {
     std::vector<Strategy> all = strategies_of({"brdf", "cosine", "hemisphere"});
     for (const Choosable& policy : policy_names())

@@ -293,7 +293,7 @@ TEST(Predict, NearLightsHideFarOnes)
         const double s1 = std::pow(std::sin(wide), 2), s2 = std::pow(std::sin(narrow), 2);
         const double mean = 0.5 * std::cos(beta) *
                             (emitted(scene.lights[0]) * (s1 - s2) + emitted(scene.lights[1]) * s2);
-        const std::vector<Strategy> all = every_strategy();
+        const std::vector<Strategy> all = every_plain_strategy();
         const std::vector<Predicted> predicted = predict(scene, scene.probes[0], all);
         for (std::size_t i = 0; i < all.size(); ++i)
             EXPECT_NEAR(predicted[i].mean, mean, 1e-9 + predicted[i].mean_error) << name_of(all[i]);
@@ -332,7 +332,7 @@ TEST(Predict, IdenticalLightsCountOnce)
     Light copy = scene.lights[0];
     copy.radiance_radius *= 5;
     scene.lights.push_back(copy);  // hidden by the first
-    for (const Strategy& s : every_strategy()) {
+    for (const Strategy& s : every_plain_strategy()) {
         const Predicted p = predict(scene, scene.probes[0], std::span(&s, 1)).front();
         EXPECT_NEAR(p.mean, alone.mean, p.mean_error + alone.mean_error) << name_of(s);
     }
@@ -340,7 +340,7 @@ TEST(Predict, IdenticalLightsCountOnce)
 
 TEST(Predict, WhatIsDarkIsExactlyZero)
 {
-    const std::vector<Strategy> all = every_strategy();
+    const std::vector<Strategy> all = every_plain_strategy();
     const auto expect_dark = [&](const Scene& scene) {
         for (const Predicted& p : predict(scene, scene.probes[0], all)) {
             EXPECT_EQ(p.mean, 0);
@@ -400,7 +400,7 @@ TEST(Predict, WhatNoDoubleHoldsIsInfinite)
 /// The same figures within both errors.
 void expect_same(const Scene& a, const Scene& b)
 {
-    const std::vector<Strategy> all = every_strategy();
+    const std::vector<Strategy> all = every_plain_strategy();
     const std::vector<Predicted> p = predict(a, a.probes[0], all), q = predict(b, b.probes[0], all);
     for (std::size_t i = 0; i < all.size(); ++i) {
         EXPECT_NEAR(p[i].mean, q[i].mean, p[i].mean_error + q[i].mean_error) << name_of(all[i]);

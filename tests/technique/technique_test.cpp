@@ -78,7 +78,7 @@ template <class K, class T> void expect_density_is_the_draws()
 {
     Uniforms uniforms(42);
     for (int i = 0; i < 5000; ++i) {
-        const double theta = uniforms.log_between(1e-6, 1.4);
+        const double theta = uniforms.log_between(1e-8, 1.569);
         const Cap<T> cap = cap_towards(vec_cast<T>(some_cap(theta).axis * 5.0),
                                        static_cast<T>(5 * std::sin(theta)),
                                        static_cast<T>(25 * std::cos(theta) * std::cos(theta)));
