@@ -9,12 +9,14 @@ namespace mis {
 
 namespace {
 
+/// A rough look takes so many samples of a point; where few strategies are looked at, four times.
 constexpr int pilot_samples = 8;
+constexpr std::size_t few_strategies = 6;
 
-StrategyRun sampled(const StudyGround& ground, const Strategy& strategy)
+StrategyRun sampled(const StudyGround& ground, const Strategy& strategy, int samples)
 {
     StrategyRun run(ground.scene, ground.points, strategy, ~ground.seed);
-    run.sample_apart(pilot_samples, ground.workspaces, ground.executor);
+    run.sample_apart(samples, ground.workspaces, ground.executor);
     return run;
 }
 
@@ -43,7 +45,8 @@ std::vector<double> rough_weights(const StudyGround& ground)
     const double pairs =
         static_cast<double>(scene.lights.size()) * static_cast<double>(ground.points.figure_lit);
     const StrategyRun run =
-        sampled(ground, parse_strategy(pairs < 1e8 ? "radiant-solid-angle/power" : "power/power"));
+        sampled(ground, parse_strategy(pairs < 1e8 ? "radiant-solid-angle/power" : "power/power"),
+                pilot_samples);
     std::vector<double> weights;
     for (const PointResult& result : run.results()) weights.push_back(result.luminance.mean);
     weights = relative_scale(std::move(weights), ground.points, scene.camera.has_value()).squares;
@@ -56,8 +59,9 @@ std::vector<double> best_tile_factors(const StudyGround& ground,
 {
     const StudyPoints& points = ground.points;
     std::vector<double> benefit(points.figure_tiles);
+    const int samples = strategies.size() <= few_strategies ? 4 * pilot_samples : pilot_samples;
     for (const Strategy& strategy : strategies)
-        if (!ground.is_stopped()) add_benefit(benefit, sampled(ground, strategy), points);
+        if (!ground.is_stopped()) add_benefit(benefit, sampled(ground, strategy, samples), points);
     double mean = 0;
     std::vector<double> wanted(benefit.size());
     for (std::size_t t = 0; t < benefit.size(); ++t) {

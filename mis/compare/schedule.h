@@ -40,14 +40,6 @@ inline Plan plan_for(std::uint64_t spp)
 /// Samples per point of a first round, about.
 inline constexpr int first_samples = 32;
 
-/// Replicates where time is the limit: 32 where a round of two samples each leaves time for half a
-/// dozen rounds, else 16. More of them tell the errors better (Student's t); fewer make shorter
-/// rounds. round_seconds: what first_samples of all strategies cost; seconds: that there are.
-inline int replicates_for(double round_seconds, double seconds)
-{
-    return 2 * round_seconds * 6 < seconds ? 32 : 16;
-}
-
 /// Plan::parts where there is time for few rounds: so many that there are half a dozen, at most 4.
 inline int parts_for(double round_seconds, double seconds)
 {

@@ -89,7 +89,6 @@ private:
         const double cpu = options_.spp ? 1e300 : budget() * executor_.threads;
         if (!options_.spp) {
             costs_ = estimate_costs(ground(), strategies_, first_samples, 0.6 * cpu);
-            plan_.replicates = replicates_for(sum_of_costs(), cpu);
             plan_.parts = parts_for(sum_of_costs(), cpu);
         }
         std::vector<Strategy> quick;
@@ -100,8 +99,8 @@ private:
         }
         if (is_stopped()) return;
         weights_ = rough_weights(ground());
-        if (!options_.spp && 4 * sum_of_costs() < cpu)  // else there are few rounds, all of twos
-            tile_factors_ = best_tile_factors(ground(), quick);
+        spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, all of twos
+        if (spreads_) tile_factors_ = best_tile_factors(ground(), quick);
         run_audit();
     }
 
@@ -234,10 +233,11 @@ private:
         }
     }
 
-    /// What no undecided pair waits for rests, so that the undecided get its time; where there is
-    /// no such pair, nothing does.
+    /// What no undecided pair waits for rests, so that the undecided get its time, where their own
+    /// samples need it; where there is no such pair, nothing rests.
     void let_rest()
     {
+        const std::vector<bool> rested = rests_;
         rests_.assign(rests_.size(), true);
         for (const PairReport& pair : study_.report.pairs)
             if (pair.verdict == Verdict::undecided)
@@ -245,6 +245,11 @@ private:
                     rests_[static_cast<std::size_t>(pair.b)] = false;
         if (std::find(rests_.begin(), rests_.end(), false) == rests_.end())
             rests_.assign(rests_.size(), false);
+        if (!spreads_ || rests_ == rested) return;
+        std::vector<Strategy> awake;
+        for (std::size_t s = 0; s < rests_.size(); ++s)
+            if (study_.runs[s] && !rests_[s]) awake.push_back(strategies_[s]);
+        tile_factors_ = best_tile_factors(ground(), awake);
     }
 
     bool stops_when_settled() const
@@ -378,6 +383,7 @@ private:
     ErrorSpending spending_;
     std::vector<CostEstimate> costs_;
     std::vector<bool> rests_;
+    bool spreads_ = false;  ///< samples over tiles
     std::vector<double> weights_, tile_factors_;
     std::vector<std::size_t> audited_;
     std::vector<AuditEstimate> audit_;
