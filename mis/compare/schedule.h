@@ -12,7 +12,7 @@ namespace mis {
 /// The samples that every point gets in one round, per replicate, are as many as it takes to have
 /// some tens of rounds in all: strategies alternate in small rounds, so that a drifting machine
 /// touches all alike.
-struct Plan {
+struct SamplePlan {
     int replicates = 16;
     int parts = 1;  ///< rounds that the replicates take turns in: more and shorter rounds, which
                     ///< tell the times better
@@ -22,9 +22,9 @@ struct Plan {
 };
 
 /// For a fixed number of samples per point: 16 replicates, or as many as have two samples each.
-inline Plan plan_for(std::uint64_t spp)
+inline SamplePlan plan_for(std::uint64_t spp)
 {
-    Plan plan;
+    SamplePlan plan;
     plan.replicates = static_cast<int>(std::clamp<std::uint64_t>(spp / 2, 1, 16));
     std::uint64_t left = spp / static_cast<std::uint64_t>(plan.replicates);
     plan.remainder = static_cast<int>(spp % static_cast<std::uint64_t>(plan.replicates));
@@ -40,7 +40,8 @@ inline Plan plan_for(std::uint64_t spp)
 /// Samples per point of a first round, about.
 inline constexpr int first_samples = 32;
 
-/// Plan::parts where there is time for few rounds: so many that there are half a dozen, at most 4.
+/// SamplePlan::parts where there is time for few rounds: so many that there are half a dozen, at
+/// most 4.
 inline int parts_for(double round_seconds, double seconds)
 {
     return std::bit_ceil(

@@ -378,7 +378,7 @@ private:
     Clock::time_point start_ = Clock::now();
     Study study_;
     WorkspacePool<float> workspaces_;
-    Plan plan_;
+    SamplePlan plan_;
     std::uint32_t rounds_ = 0;
     ErrorSpending spending_;
     std::vector<CostEstimate> costs_;

@@ -61,9 +61,9 @@ void keep_in_range(Bounded& b)
 
 }  // namespace
 
-Figures figures_of(const StrategyMoments& moments, double rounding)
+MomentFigures figures_of(const StrategyMoments& moments, double rounding)
 {
-    Figures sum;
+    MomentFigures sum;
     Bounded cumulant;  // fourth: of independent draws it adds up, as mean and variance do
     const auto add = [&](const DrawMoments& draw, double draws) {
         const Central c = central(draw, rounding);

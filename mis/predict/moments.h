@@ -39,11 +39,11 @@ struct Bounded {
 
 /// Mean, variance and fourth central moment of a sum of independent draws (docs/theory-predict.md,
 /// P7 to P10).
-struct Figures {
+struct MomentFigures {
     Bounded mean, variance, fourth;
 };
 
 /// rounding: relative error of one value of X.
-Figures figures_of(const StrategyMoments& moments, double rounding);
+MomentFigures figures_of(const StrategyMoments& moments, double rounding);
 
 }  // namespace mis

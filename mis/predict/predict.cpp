@@ -23,13 +23,13 @@ public:
     }
 
     /// Figures of the group's strategies, in its order.
-    std::vector<Figures> run()
+    std::vector<MomentFigures> run()
     {
         std::vector<StrategyMoments> moments = pass(false);
         shift_by(moments);
         moments = pass(false);
         for (int round = 0; round < 3; ++round) {
-            const std::vector<Figures> expected = figures(moments);
+            const std::vector<MomentFigures> expected = figures(moments);
             set_tolerances(moments, expected);
             moments = pass(true);
             if (!is_much_smaller(figures(moments), expected)) break;
@@ -59,9 +59,9 @@ private:
         return slot.light < 0 ? of.bsdf.front() : of.light[static_cast<std::size_t>(slot.light)];
     }
 
-    std::vector<Figures> figures(const std::vector<StrategyMoments>& moments) const
+    std::vector<MomentFigures> figures(const std::vector<StrategyMoments>& moments) const
     {
-        std::vector<Figures> all;
+        std::vector<MomentFigures> all;
         for (const std::size_t s : group_.strategies)
             all.push_back(figures_of(moments[s], rounding_));
         return all;
@@ -101,7 +101,7 @@ private:
     /// Absolute tolerances of the four moments of each draw, such that the figures meet the
     /// relative one.
     void set_tolerances(const std::vector<StrategyMoments>& moments,
-                        const std::vector<Figures>& figures)
+                        const std::vector<MomentFigures>& figures)
     {
         tolerances_ = empty_;
         for (std::size_t i = 0; i < group_.strategies.size(); ++i) {
@@ -113,7 +113,7 @@ private:
         }
     }
 
-    std::array<double, 4> tolerance_of(const DrawMoments& draw, const Figures& f) const
+    std::array<double, 4> tolerance_of(const DrawMoments& draw, const MomentFigures& f) const
     {
         const auto& [s1, s2, s3, s4] = draw.sums.value;
         const double floor = std::max(1e-13, 16 * rounding_), c = std::abs(draw.shift);
@@ -138,8 +138,8 @@ private:
         return all;
     }
 
-    static bool is_much_smaller(const std::vector<Figures>& found,
-                                const std::vector<Figures>& expected)
+    static bool is_much_smaller(const std::vector<MomentFigures>& found,
+                                const std::vector<MomentFigures>& expected)
     {
         for (std::size_t i = 0; i < found.size(); ++i)
             if (4 * found[i].mean.value < expected[i].mean.value ||
@@ -187,10 +187,10 @@ std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
     const std::vector<Patch> patches = patches_of(sky, lobe);
     for (const Group& group : plan.groups) {
         const double aim = group.jumps.empty() ? tolerance.smooth : tolerance.jumps;
-        const std::vector<Figures> figures =
+        const std::vector<MomentFigures> figures =
             GroupPrediction(sky, response, plan, group, patches, aim, rounding).run();
         for (std::size_t i = 0; i < figures.size(); ++i) {
-            const Figures& f = figures[i];
+            const MomentFigures& f = figures[i];
             result[group.strategies[i]] = {f.mean.value,     f.mean.error,   f.variance.value,
                                            f.variance.error, f.fourth.value, f.fourth.error};
         }
