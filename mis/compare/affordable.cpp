@@ -51,8 +51,9 @@ std::vector<CostEstimate> estimate_costs(const StudyGround& ground,
     });
     double sum = 0;
     for (const std::size_t s : order) {
+        if (!costs[s].is_affordable) continue;
+        if (sum > 0 && sum + costs[s].seconds > cpu_seconds) costs[s].is_affordable = false;
         sum += costs[s].seconds;
-        if (s != order.front() && sum > cpu_seconds) costs[s].is_affordable = false;
     }
     return costs;
 }

@@ -14,11 +14,21 @@ namespace {
     throw WriteError(file.string() + ": cannot be written: " + reason);
 }
 
+/// The module in the folder beside the running program's, as a build has it. (The program's run
+/// path would do, but for sanitizers, under which it is theirs that counts.)
+std::string module_beside_program()
+{
+    std::error_code ignored;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
+    return program.parent_path().parent_path() / "lib" / MIS_IMAGE_MODULE;
+}
+
 /// The module's only function; the module stays loaded. Null where it is not found: dlerror() says
 /// why.
 WriteExrPixels* open_module()
 {
     void* module = dlopen(MIS_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
+    if (!module) module = dlopen(module_beside_program().c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!module) module = dlopen(MIS_MODULE_DIR "/" MIS_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
     return module ? reinterpret_cast<WriteExrPixels*>(dlsym(module, "mis_write_exr_pixels"))
                   : nullptr;

@@ -113,7 +113,8 @@ TEST(CommandLine, GivesTheSameFiguresOnAnyNumberOfThreads)
         const Outcome outcome = mis_with(words + std::to_string(threads));
         EXPECT_EQ(outcome.exit, 0) << outcome.error;
         std::string text;
-        for (const auto& s : nlohmann::json::parse(outcome.out)["scenes"][0]["strategies"])
+        const auto report = nlohmann::json::parse(outcome.out);
+        for (const auto& s : report["scenes"][0]["strategies"])
             text += s["mean"].dump() + s["variance"]["value"].dump() +
                     s["relative_variance"]["value"].dump() + s["samples"].dump() +
                     s["status"].dump() + "\n";
