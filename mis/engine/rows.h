@@ -46,9 +46,19 @@ MIS_INLINE const ShadingPoint& shading_point(const TileJob<T>& job, const Batch<
 
 /// wi in double and of length 1. As a float it is 6e-8 too long or too short, by which rays along
 /// the edge of a light that fills half the sky, 2e-4 rad of it, would miss it.
-template <class T> Vec3<double> unit_direction(const Batch<T>& batch, int row)
+template <class T> MIS_INLINE Vec3<double> unit_direction(const Batch<T>& batch, int row)
 {
     return normalized(vec_cast<double>(batch.wi.at(row)));
+}
+
+/// The direction of a light draw without the rounding to T: axis in double, plus the offset.
+template <class T>
+MIS_INLINE Vec3<double> exact_direction(const TileJob<T>& job, const Batch<T>& batch, int row)
+{
+    const Light& light =
+        (*job.lights)[static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)])];
+    return normalized(normalized(light.center - shading_point(job, batch, row).x) +
+                      vec_cast<double>(batch.offset.at(row)));
 }
 
 }  // namespace mis

@@ -130,16 +130,6 @@ template <class T> double solid_angle(const TileJob<T>& job, LightIndex j, const
     return cap_of_sphere(light.center, light.radius, x).solid_angle();
 }
 
-/// The direction of a light draw without the rounding to T: axis in double, plus the offset.
-template <class T>
-Vec3<double> exact_direction(const TileJob<T>& job, const Batch<T>& batch, int row)
-{
-    const Light& light =
-        (*job.lights)[static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)])];
-    return normalized(normalized(light.center - shading_point(job, batch, row).x) +
-                      vec_cast<double>(batch.offset.at(row)));
-}
-
 /// Where a light draw meets its own light; at the rim, where rounding may miss it, the nearest
 /// point of the ray.
 template <class T>

@@ -127,10 +127,7 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
         const LightIndex j = batch.light[static_cast<std::size_t>(row)];
         const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
         const Vec3<double> x = shading_point(job, batch, row).x;
-        // Axis in double plus the offset: the direction without its rounding to T.
-        const Vec3<double> to_center = light.center - x;
-        const Vec3<double> wi =
-            normalized(normalized(to_center) + vec_cast<double>(batch.offset.at(row)));
+        const Vec3<double> to_center = light.center - x, wi = exact_direction(job, batch, row);
         const double own = hit_distance(to_center, light.radius, wi);
         const LightHit hit{j, std::isfinite(own) ? own : dot(to_center, wi)};
         if (job.hierarchy->hides(x, wi, hit)) batch.contribution.put(row, Vec3<T>(T(0)));
