@@ -72,7 +72,7 @@ std::vector<double> best_tile_factors(const StudyGround& ground,
     std::vector<double> factors(points.shading.tiles.size(), 1.0);
     if (!(mean > 0)) return factors;
     for (std::size_t t = 0; t < benefit.size(); ++t)
-        factors[t] = std::clamp(wanted[t] / mean, 0.5, 8.0);
+        factors[t] = std::clamp(wanted[t] / mean, 0.5, 32.0);
     return factors;
 }
 
