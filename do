@@ -8,6 +8,7 @@ usage() {
 ./do COMMAND …     builds mis where needed and runs `mis COMMAND …`; try ./do compare scenes/veach.json
 ./do test …        builds and runs the tests; … goes to ctest (-R NAME, -V)
 ./do bench …       builds and runs the benchmarks; … goes to each of them (--benchmark_filter=NAME)
+./do fuzz SECONDS  lets libFuzzer loose on each reader of files for so long (600)
 ./do format        formats the sources; ./do format --check only says what it would change
 ./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci)
 ./do clean         removes all that was built
@@ -108,6 +109,22 @@ case ${1-} in
             name=$(basename "$source" .cpp)
             say "bench_$name"
             "$root/build/release/bin/bench_$name" "${@:2}"
+        done
+        ;;
+    fuzz)
+        need_packages build ci
+        cmake -S "$root" --preset fuzz >&2
+        (cd "$root" && cmake --build --preset fuzz >&2)
+        corpus=$root/build/fuzz/corpus
+        for reader in scene table; do
+            mkdir -p "$corpus/$reader"
+            case $reader in
+                scene) cp "$root"/scenes/*.json "$corpus/scene/" ;;
+                table) cp "$root"/scenes/*.csv "$corpus/table/" 2>/dev/null || printf 'x,y,z,radius,r,g,b\n0,1,2,.5,1,1,1\n' >"$corpus/table/one.csv" ;;
+            esac
+            say "$reader reader, ${2-600} s"
+            "$root/build/fuzz/tests/fuzz/${reader}_fuzz" -max_total_time="${2-600}" -timeout=60 -rss_limit_mb=4096 \
+                -max_len=65536 -print_final_stats=1 -artifact_prefix="$root/build/fuzz/" "$corpus/$reader"
         done
         ;;
     format)

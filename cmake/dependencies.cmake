@@ -1,5 +1,5 @@
 # What is there decides which libraries are built; the program and the tests need all of them, a bare core only GLM.
-if(MIS_PROGRAM OR MIS_TESTS OR MIS_BENCH)
+if(MIS_PROGRAM OR MIS_TESTS OR MIS_BENCH OR MIS_FUZZ)
   set(need REQUIRED)
 else()
   set(need QUIET)

@@ -5,8 +5,10 @@ add_compile_options(
   -ffp-contract=off)
 # Designated initialisers name what differs from the defaults; the rest is left out on purpose.
 add_compile_options(-Wno-missing-field-initializers)
-# GCC 12 sees overlapping copies inside std::string where there are none (GCC bug 105651).
-add_compile_options($<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>)
+# GCC 12 sees overlapping and endless copies inside std::string where there are none (GCC bugs 105651, 105329).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  add_compile_options(-Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+endif()
 if(MIS_WERROR)
   add_compile_options(-Werror)
 endif()

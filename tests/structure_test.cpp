@@ -1,4 +1,6 @@
 // Who may include whom: the house's plan as a table, and a look at every #include line of the tree.
+#include "tests/support/places.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -159,7 +161,7 @@ std::vector<std::string> violations(const Sources& sources)
 Sources sources_of_the_tree()
 {
     namespace fs = std::filesystem;
-    const fs::path house = fs::path(MIS_SOURCE_DIR) / "mis";
+    const fs::path house = mis::source_dir() / "mis";
     Sources sources;
     for (const auto& entry : fs::recursive_directory_iterator(house)) {
         const std::string extension = entry.path().extension().string();

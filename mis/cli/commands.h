@@ -24,7 +24,7 @@ struct CompareOptions {
         strategies;  ///< lists; empty: the default
     double at = 16;
     std::string out;  ///< folder, or empty
-    bool force = false;
+    bool force = false, trap = false;
     RunOptions run;
     StopOptions stop;
     OutputOptions output;
@@ -38,6 +38,14 @@ struct ExplainOptions {
 };
 int run_explain(const ExplainOptions& options);
 
+struct ReplayOptions {
+    std::string scene, strategy;
+    std::uint32_t point = 0;
+    std::uint64_t sample = 0;
+    RunOptions run;
+};
+int run_replay(const ReplayOptions& options);
+
 struct IntegrateOptions {
     std::string pdf = "all";              ///< hemisphere, cosine, angles, blinn; or all
     std::optional<std::string> exponent;  ///< of the lobe, as typed; 10 where it is not
@@ -46,7 +54,24 @@ struct IntegrateOptions {
     std::string command_line;
     OutputOptions output;
 };
-void add_integrate(CLI::App& app, IntegrateOptions& options);
+/// The densities and how each draws, line by line.
+std::string densities_help();
+/// Their names, and all.
+std::string densities();
 int run_integrate(const IntegrateOptions& options);
+
+struct PredictOptions {
+    std::string scene;
+    std::string policies, heuristics, techniques, models,
+        strategies;   ///< lists; empty: the default
+    int threads = 0;  ///< 0: as many as the machine has
+    bool quiet = false;
+    std::string command_line;
+    OutputOptions output;
+};
+/// Mean and variance of every strategy at each probe of a scene, by quadrature. Returns `failed`
+/// where a probe cannot be predicted (a mesh or quad could hide its lights), `interrupted` after
+/// Ctrl-C. Throws as all do.
+int run_predict(const PredictOptions& options);
 
 }  // namespace mis::cli

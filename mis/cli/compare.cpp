@@ -45,6 +45,7 @@ StudyOptions study_options(const CompareOptions& options, Progress& progress)
     study.seconds = options.stop.seconds;
     study.error = options.stop.error;
     study.stop = &interrupt_flag();
+    study.traps_invalid = options.trap;
     study.progress = [&progress](double done, const SceneReport& so_far) {
         std::string text = so_far.name.empty() ? so_far.file : so_far.name;
         const StrategyReport* best = nullptr;

@@ -228,27 +228,14 @@ std::string summary(const IntegralReport& report)
 
 }  // namespace
 
-void add_integrate(CLI::App& app, IntegrateOptions& options)
+std::string densities() { return comma_list(pdf_names); }
+
+std::string densities_help()
 {
-    CLI::App& c = *app.add_subcommand(
-        "integrate", "the lecture's first example: the integral of cos θ, which is π");
-    c.add_option("--pdf", options.pdf, "density of the draws: " + comma_list(pdf_names))
-        ->type_name("NAME")
-        ->capture_default_str();
-    c.add_option("--exponent", options.exponent, "m of blinn, at least 0 (10)")->type_name("M");
-    c.add_option("-n", options.samples, "draws, from 1 to 1e9")
-        ->type_name("N")
-        ->capture_default_str();
-    c.add_option("--seed", options.seed, "seed of the random numbers")
-        ->check(seed_fault)
-        ->capture_default_str();
-    add_output_options(c, options.output);
-    std::string text = "Densities:\n";
+    std::string text;
     for (const HemisphereDensity density : hemisphere_densities)
         text += fmt::format("  {:<18} {}\n", text_of(density).name, text_of(density).draws);
-    c.footer(text +
-             "\nExamples:\n  mis integrate\n  mis integrate --pdf angles -n 1e6\n"
-             "  mis integrate --pdf blinn --exponent 100\n  mis integrate --pdf cosine --csv -");
+    return text;
 }
 
 int run_integrate(const IntegrateOptions& options)

@@ -16,45 +16,6 @@
 
 namespace mis::cli {
 
-std::string seed_fault(const std::string& text)
-{
-    std::uint64_t seed = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    if (error == std::errc{} && end == text.data() + text.size()) return "";
-    return fmt::format("found \"{}\"; a seed is a whole number from 0 to {}", text,
-                       std::numeric_limits<std::uint64_t>::max());
-}
-
-void add_run_options(CLI::App& command, RunOptions& options)
-{
-    command.add_option("--threads", options.threads,
-                       "threads to run on (0: as many as the machine has)");
-    command.add_option("--seed", options.seed, "seed of the random numbers")
-        ->capture_default_str()
-        ->check(seed_fault);
-    command.add_option("--resolution", options.resolution,
-                       "picture size WxH in place of the scene's");
-    command
-        .add_option("--effects", options.effects,
-                    "auto: only what the scene calls for; all: everything")
-        ->capture_default_str();
-    command.add_option("--sampler", options.sampler, "independent random numbers")
-        ->capture_default_str();
-    command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
-}
-
-void add_output_options(CLI::App& command, OutputOptions& options)
-{
-    command
-        .add_option("--json", options.json,
-                    "write the figures as JSON to FILE, or - for standard output")
-        ->type_name("FILE");
-    command
-        .add_option("--csv", options.csv,
-                    "write the figures as CSV to FILE, or - for standard output")
-        ->type_name("FILE");
-}
-
 void check_output_file(const std::string& option, const std::string& file)
 {
     namespace fs = std::filesystem;
@@ -77,13 +38,6 @@ void check(const OutputOptions& options)
         throw UsageError("--json and --csv: found - for both; standard output takes one of them");
     check_output_file("--json", options.json);
     check_output_file("--csv", options.csv);
-}
-
-void add_stop_options(CLI::App& command, StopOptions& options)
-{
-    command.add_option("--spp", options.spp, "samples per shading point")->type_name("N");
-    command.add_option("--time", options.seconds, "seconds of wall time")->type_name("S");
-    command.add_option("--error", options.error, "until the relative error is E")->type_name("E");
 }
 
 void check(const StopOptions& options, std::int64_t least_spp)

@@ -3,8 +3,6 @@
 #include "mis/run/executor.h"
 #include "mis/scene/scene.h"
 
-#include <CLI/CLI.hpp>
-
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -22,7 +20,8 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What every command that runs takes.
+/// What every command that runs takes: --threads, --seed, --quiet, --resolution, --effects,
+/// --sampler.
 struct RunOptions {
     int threads = 0;  ///< 0: as many as the machine has
     std::uint64_t seed = 1;
@@ -33,18 +32,10 @@ struct RunOptions {
     std::string command_line;
 };
 
-/// What is wrong with the text of a seed, or nothing; the parser's own conversion would wrap −1
-/// around.
-std::string seed_fault(const std::string& text);
-
-/// --threads, --seed, --quiet, --resolution, --effects, --sampler.
-void add_run_options(CLI::App& command, RunOptions& options);
-
 /// Where figures go besides the table: --json and --csv.
 struct OutputOptions {
     std::string json, csv;  ///< a file, "-" for standard output, or empty
 };
-void add_output_options(CLI::App& command, OutputOptions& options);
 
 /// Throws UsageError where a file of that name could not be made: before a run whose figures would
 /// be lost.
@@ -56,7 +47,6 @@ struct StopOptions {
     std::optional<std::int64_t> spp;
     std::optional<double> seconds, error;
 };
-void add_stop_options(CLI::App& command, StopOptions& options);
 
 /// Throws UsageError unless the values make sense together; `least_spp` is the fewest samples the
 /// command can use.

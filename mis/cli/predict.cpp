@@ -1,4 +1,4 @@
-#include "mis/cli/predict.h"
+#include "mis/cli/commands.h"
 
 #include "mis/cli/interrupt.h"
 #include "mis/cli/progress.h"
@@ -45,32 +45,6 @@ PredictReport::Scene predicted_scene(const Scene& scene, const StrategySelection
 }
 
 }  // namespace
-
-void add_predict(CLI::App& app, PredictOptions& options)
-{
-    CLI::App& c = *app.add_subcommand(
-        "predict",
-        "exact mean and variance of every strategy at a scene's probes, without random numbers");
-    c.add_option("scene", options.scene, "scene file with probes")->required()->type_name("SCENE");
-    c.add_option("--policy", options.policies, "light-choice policies, separated by commas")
-        ->type_name("LIST");
-    c.add_option("--heuristic", options.heuristics, "heuristics")->type_name("LIST");
-    c.add_option("--technique", options.techniques, "techniques of the light draw")
-        ->type_name("LIST");
-    c.add_option("--model", options.models, "multi, one-sample")->type_name("LIST");
-    c.add_option("--strategy", options.strategies, "strategies by name; with it alone, just these")
-        ->type_name("LIST");
-    c.add_option("--threads", options.threads, "threads to run on (0: as many as the machine has)");
-    c.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
-    add_output_options(c, options.output);
-    c.footer(
-        "Each figure stands with a bound of its error. Lights hide one another, spheres among the "
-        "surfaces hide\n"
-        "lights; meshes and quads must provably hide none.\n\nExamples:\n"
-        "  mis predict scenes/eclipse.json\n"
-        "  mis predict scenes/eclipse.json --strategy power/light,power/power/union,brdf\n"
-        "  mis predict scenes/overlap.json --policy all --heuristic cutoff,maximum --json -");
-}
 
 int run_predict(const PredictOptions& options)
 {

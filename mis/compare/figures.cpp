@@ -189,6 +189,7 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
     report.samples = s.pooled.samples;
     report.estimated_seconds = s.estimated_seconds;
     report.invalid_samples = s.invalid_samples;
+    report.first_invalid = s.first_invalid;
     if (!s.was_run) {
         report.mean = report.mean_se = report.rays_per_sample = unknown_interval().value;
         report.variance = report.relative_variance = report.seconds_per_point =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/engine/sample_name.h"
 #include "mis/math/moments.h"
 #include "mis/strategy/strategy.h"
 
@@ -96,6 +97,7 @@ struct StrategyMeasurements {
     std::map<std::string, double> stage_seconds;  ///< CPU seconds over all samples
     std::uint64_t rays = 0;                       ///< over all samples
     std::uint64_t invalid_samples = 0;
+    SampleName first_invalid;     ///< where there are any
     std::vector<Moments> probes;  ///< [probe], merged over all replicates
 };
 

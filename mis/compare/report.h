@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/engine/sample_name.h"
 #include "mis/strategy/strategy.h"
 
 #include <cstdint>
@@ -51,6 +52,7 @@ struct StrategyReport {
     double effective_samples =
         0;  ///< how many samples carry the variance (measurements.h, Participation)
     std::uint64_t invalid_samples = 0;
+    SampleName first_invalid;  ///< where there are any
     std::vector<PointFigures> probes;
 };
 

@@ -226,7 +226,10 @@ private:
                                              : ""));
             if (s.invalid_samples > 0)
                 say(name(i) + " gave " + std::to_string(s.invalid_samples) +
-                    " samples that are no numbers and were left out: do not trust its figures");
+                    " samples that are no numbers and were left out: do not trust its figures; "
+                    "'" +
+                    replay_words(scene_.file, s.strategy, s.first_invalid) +
+                    "' with this run's --seed and --resolution shows the first");
         }
         if (scene_.partial) say("Stopped early: these are the results so far");
     }

@@ -117,6 +117,13 @@ TimeObservation StrategyRun::try_out(int samples, std::size_t points,
             prepare / static_cast<double>(std::max<std::size_t>(tried, 1))};
 }
 
+std::optional<SampleName> StrategyRun::first_invalid() const
+{
+    for (const TileSums& tile : tiles_)
+        if (tile.cost.invalid > 0) return tile.cost.first_invalid;
+    return std::nullopt;
+}
+
 StrategyMeasurements StrategyRun::measurements(std::span<const double> scale) const
 {
     StrategyMeasurements m;
@@ -179,6 +186,7 @@ void StrategyRun::add_replicates(StrategyMeasurements& m) const
 void StrategyRun::add_costs(StrategyMeasurements& m) const
 {
     m.times = times_;
+    m.first_invalid = first_invalid().value_or(SampleName{});
     double rays = 0;
     for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
         const TileTotals& cost = tiles_[t].cost;

@@ -4,6 +4,7 @@
 #include "mis/compare/study_points.h"
 #include "mis/engine/lit_scene.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,9 @@ public:
     const Strategy& strategy() const { return ready_.strategy(); }
     std::uint64_t samples() const { return samples_; }  ///< over all shading points
     std::span<const PointResult> results() const { return results_; }
+
+    /// The first sample, tile by tile, that is no number; nothing where all are.
+    std::optional<SampleName> first_invalid() const;
 
     /// scale: μ² + ε² of every point.
     StrategyMeasurements measurements(std::span<const double> scale) const;

@@ -3,11 +3,13 @@
 #include "mis/compare/affordable.h"
 #include "mis/compare/pool.h"
 #include "mis/compare/schedule.h"
+#include "mis/compare/words.h"
 #include "mis/strategy/names.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 namespace mis {
 
@@ -185,8 +187,21 @@ private:
             if (study_.runs[s] && !rests_[s])
                 study_.runs[s]->sample_round({allocation, first, end, plan_.replicates, !any_rests},
                                              weights_, workspaces_, executor_);
+            if (options_.traps_invalid) trap(s);
             show_progress(static_cast<double>(++done) / static_cast<double>(order.size()));
         }
+    }
+
+    void trap(std::size_t s) const
+    {
+        if (!study_.runs[s]) return;
+        const std::optional<SampleName> found = study_.runs[s]->first_invalid();
+        if (found)
+            throw std::runtime_error(scene_.scene().file + ": " + name_of(strategies_[s]) +
+                                     " gave a sample that is no number\n    " +
+                                     replay_words(scene_.scene().file, strategies_[s], *found) +
+                                     " --seed " + std::to_string(options_.seed) +
+                                     " (and this run's --resolution) shows it");
     }
 
     void show_progress(double of_round)

@@ -18,6 +18,7 @@ struct StudyOptions {
     std::optional<double> seconds;     ///< so much wall time
     std::optional<double> error;       ///< until every ranked variance is known to ± this share
     double default_seconds = 30;       ///< without any of these: until settled, or this
+    bool traps_invalid = false;  ///< throw std::runtime_error at the first sample that is no number
     const std::atomic<bool>* stop = nullptr;  ///< set from outside: end with the results so far
     std::function<void(double done, const SceneReport& so_far)> progress;
 };

@@ -1,5 +1,7 @@
 #include "mis/compare/words.h"
 
+#include "mis/strategy/names.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -85,6 +87,13 @@ std::string listed(std::span<const std::string> names)
         text += names[i];
     }
     return text;
+}
+
+std::string replay_words(const std::string& file, const Strategy& strategy,
+                         const SampleName& sample)
+{
+    return "mis replay " + file + " --strategy " + name_of(strategy) + " --point " +
+           std::to_string(sample.point) + " --sample " + std::to_string(sample.sample);
 }
 
 }  // namespace mis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/compare/report.h"
+#include "mis/engine/sample_name.h"
 
 #include <span>
 #include <string>
@@ -26,5 +27,9 @@ std::string duration(double seconds);
 
 /// "a", "a and b", "a, b and c".
 std::string listed(std::span<const std::string> names);
+
+/// The command that shows a sample again: "mis replay FILE --strategy NAME --point N --sample N".
+std::string replay_words(const std::string& file, const Strategy& strategy,
+                         const SampleName& sample);
 
 }  // namespace mis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/engine/sample_name.h"
 #include "mis/math/vec.h"
 #include "mis/scene/light.h"
 
@@ -50,6 +51,7 @@ template <class T> struct Batch {
     bool rows_are_samples = false;               ///< all of them, in order: start_rows() did so
     std::size_t points = 0;                      ///< shading points that have a table here
     std::uint64_t invalid = 0, shadow_rays = 0;  ///< counted over all batches
+    SampleName first_invalid;                    ///< where invalid > 0
 
     // Per sample.
     alignas(64) Column<std::int32_t> sample_point;  ///< which of the batch's points

@@ -153,12 +153,15 @@ template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
         if (hidden[i] != 0) batch.contribution.put(row_of[i], Vec3<T>(T(0)));
 }
 
-template <class T> void add_contributions(const TileJob<T>&, Batch<T>& batch)
+template <class T> void add_contributions(const TileJob<T>& job, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
         const Vec3<T> contribution = batch.contribution.at(row);
         if (!std::isfinite(contribution.x + contribution.y + contribution.z)) {
-            ++batch.invalid;
+            if (batch.invalid++ == 0)
+                batch.first_invalid = {shading_point(job, batch, row).id,
+                                       batch.sample_number[static_cast<std::size_t>(
+                                           batch.slot[static_cast<std::size_t>(row)])]};
             continue;
         }
         const int slot = batch.slot[static_cast<std::size_t>(row)];

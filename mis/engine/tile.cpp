@@ -14,6 +14,7 @@ void TileTotals::add(const TileTotals& other)
     seconds += other.seconds;
     samples += other.samples;
     shadow_rays += other.shadow_rays;
+    if (invalid == 0) first_invalid = other.first_invalid;
     invalid += other.invalid;
 }
 
@@ -187,6 +188,7 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     result.samples = job.points.size() * static_cast<std::uint64_t>(range.samples());
     result.shadow_rays = batch_->shadow_rays;
     result.invalid = batch_->invalid;
+    result.first_invalid = batch_->first_invalid;
     return result;
 }
 

@@ -39,6 +39,7 @@ struct TileTotals {
     std::array<double, stage_names.size()> stage_seconds{};  ///< CPU
     double seconds = 0;                                      ///< CPU, all together
     std::uint64_t samples = 0, shadow_rays = 0, invalid = 0;
+    SampleName first_invalid;  ///< where invalid > 0
 
     void add(const TileTotals& other);
 };

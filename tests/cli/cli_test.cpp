@@ -1,4 +1,5 @@
 #include "tests/io/temporary_folder.h"
+#include "tests/support/places.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -30,14 +31,14 @@ Outcome mis_with(const std::string& words)
     const TemporaryFolder folder;
     const std::string out = (folder / "out").string(), error = (folder / "error").string();
     const int status = std::system(
-        (std::string("'") + MIS_PROGRAM_FILE + "' " + words + " >'" + out + "' 2>'" + error + "'")
+        ("'" + program_file().string() + "' " + words + " >'" + out + "' 2>'" + error + "'")
             .c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(error)};
 }
 
 std::string scene(const std::string& name)
 {
-    return std::string(MIS_SOURCE_DIR) + "/scenes/" + name + ".json";
+    return (source_dir() / "scenes" / (name + ".json")).string();
 }
 
 struct BadLine {

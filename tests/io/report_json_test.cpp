@@ -2,6 +2,7 @@
 
 #include "tests/io/sample_report.h"
 #include "tests/io/schema_check.h"
+#include "tests/support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json described() { return Json::parse(std::ifstream(MIS_SOURCE_DIR "/docs/report.schema.json")); }
+Json described() { return Json::parse(std::ifstream(source_dir() / "docs/report.schema.json")); }
 Json emitted() { return Json::parse(report_json(sample_report())); }
 
 Json strategy_named(const Json& scene, const std::string& name)
@@ -103,7 +104,7 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8)
 
 TEST(ReportJson, IsExplainedKeyByKey)
 {
-    std::ifstream file(MIS_SOURCE_DIR "/docs/report-format.md");
+    std::ifstream file(source_dir() / "docs/report-format.md");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     ASSERT_FALSE(text.empty());
     const Json schema = described();

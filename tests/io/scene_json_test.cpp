@@ -3,6 +3,7 @@
 #include "mis/io/json_node.h"
 #include "mis/io/scene_keys.h"
 #include "tests/io/temporary_folder.h"
+#include "tests/support/places.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +15,6 @@
 namespace mis {
 namespace {
 
-const std::filesystem::path source_dir = MIS_SOURCE_DIR;
 const std::string view = R"("camera":{"position":[0,1,5],"target":[0,1,0]})";
 const std::string light = R"({"center":[0,4,0],"radius":1,"radiance":1})";
 
@@ -163,7 +163,8 @@ TEST(SceneJson, ReadsEveryShippedScene)
 {
     int scenes = 0;
     std::uintmax_t bytes = 0;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(source_dir / "scenes")) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(source_dir() / "scenes")) {
         if (entry.is_regular_file()) bytes += entry.file_size();
         if (entry.path().extension() != ".json") continue;
         ++scenes;
@@ -179,7 +180,7 @@ TEST(SceneJson, ReadsEveryShippedScene)
 
 TEST(SceneJson, ReadsTheExampleOfTheDocumentation)
 {
-    std::ifstream stream(source_dir / "docs/scene-format.md");
+    std::ifstream stream(source_dir() / "docs/scene-format.md");
     const std::string page{std::istreambuf_iterator<char>(stream), {}};
     const std::size_t start = page.find("```jsonc\n") + 9, end = page.find("```", start);
     ASSERT_LT(end, page.size());
@@ -603,7 +604,7 @@ TEST(SceneJson, StaysShortWhateverIsWrong)
 const Json& schema()
 {
     static const Json read = [] {
-        std::ifstream stream(source_dir / "docs/scene.schema.json");
+        std::ifstream stream(source_dir() / "docs/scene.schema.json");
         return Json::parse(stream)["$defs"];
     }();
     return read;
@@ -667,7 +668,7 @@ TEST(SceneSchema, StatesTheLimitsOfTheRules)
 
 TEST(SceneFormatPage, NamesEveryKeyAndEveryLimit)
 {
-    std::ifstream stream(source_dir / "docs/scene-format.md");
+    std::ifstream stream(source_dir() / "docs/scene-format.md");
     const std::string page{std::istreambuf_iterator<char>(stream), {}};
     const auto expect_named = [&](const auto& keys) {
         for (const std::string_view key : keys)

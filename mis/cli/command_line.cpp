@@ -1,0 +1,282 @@
+#include "mis/cli/command_line.h"
+
+#include "mis/cli/commands.h"
+#include "mis/scene/nearest_name.h"
+#include "mis/strategy/names.h"
+#include "mis/strategy/strategy.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+namespace mis::cli {
+
+namespace {
+
+std::string names_of(const std::vector<Choosable>& list)
+{
+    std::string text;
+    for (const Choosable& c : list) text += fmt::format("  {:<20} {}\n", c.name, c.summary);
+    return text;
+}
+
+std::string strategy_help()
+{
+    return "\nA strategy is policy/heuristic[/technique][/one-sample][@LIGHT+BSDF], as in "
+           "solid-angle/power or\n"
+           "power/balance/union@4+1; or one that chooses no light: brdf, cosine, "
+           "hemisphere.\n\nPolicies:\n" +
+           names_of(policy_names()) + "Heuristics:\n" + names_of(heuristic_names()) +
+           "Techniques:\n" + names_of(technique_names());
+}
+
+/// What is wrong with the text of a seed, or nothing; the parser's own conversion would wrap −1
+/// around.
+std::string seed_fault(const std::string& text)
+{
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    if (error == std::errc{} && end == text.data() + text.size()) return "";
+    return fmt::format("found \"{}\"; a seed is a whole number from 0 to {}", text,
+                       std::numeric_limits<std::uint64_t>::max());
+}
+
+/// --threads, --seed, --quiet, --resolution, --effects, --sampler.
+void add_run_options(CLI::App& command, RunOptions& options)
+{
+    command.add_option("--threads", options.threads,
+                       "threads to run on (0: as many as the machine has)");
+    command.add_option("--seed", options.seed, "seed of the random numbers")
+        ->capture_default_str()
+        ->check(seed_fault);
+    command.add_option("--resolution", options.resolution,
+                       "picture size WxH in place of the scene's");
+    command
+        .add_option("--effects", options.effects,
+                    "auto: only what the scene calls for; all: everything")
+        ->capture_default_str();
+    command.add_option("--sampler", options.sampler, "independent random numbers")
+        ->capture_default_str();
+    command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
+}
+
+void add_output_options(CLI::App& command, OutputOptions& options)
+{
+    command
+        .add_option("--json", options.json,
+                    "write the figures as JSON to FILE, or - for standard output")
+        ->type_name("FILE");
+    command
+        .add_option("--csv", options.csv,
+                    "write the figures as CSV to FILE, or - for standard output")
+        ->type_name("FILE");
+}
+
+void add_stop_options(CLI::App& command, StopOptions& options)
+{
+    command.add_option("--spp", options.spp, "samples per shading point")->type_name("N");
+    command.add_option("--time", options.seconds, "seconds of wall time")->type_name("S");
+    command.add_option("--error", options.error, "until the relative error is E")->type_name("E");
+}
+
+void add_compare(CLI::App& app, CompareOptions& options)
+{
+    CLI::App& c = *app.add_subcommand(
+        "compare", "rank strategies by variance and by efficiency, on your own scenes");
+    c.add_option("scenes", options.scenes, "scene files; or two reports (.json) of earlier runs")
+        ->required()
+        ->type_name("SCENE");
+    c.add_option("--policy", options.policies, "light-choice policies, separated by commas")
+        ->type_name("LIST");
+    c.add_option("--heuristic", options.heuristics, "heuristics")->type_name("LIST");
+    c.add_option("--technique", options.techniques, "techniques of the light draw")
+        ->type_name("LIST");
+    c.add_option("--model", options.models, "multi, one-sample")->type_name("LIST");
+    c.add_option("--strategy", options.strategies, "strategies by name; with it alone, just these")
+        ->type_name("LIST");
+    add_stop_options(c, options.stop);
+    c.add_option("--at", options.at, "samples per point that the efficiency is for")
+        ->type_name("N")
+        ->capture_default_str();
+    c.add_option("--out", options.out, "folder for the whole report")->type_name("DIR");
+    c.add_flag("--force", options.force, "write into a folder that exists");
+    c.add_flag("--trap", options.trap,
+               "stop at the first sample that is no number, and say how to replay it");
+    add_run_options(c, options.run);
+    add_output_options(c, options.output);
+    c.footer([] {
+        return "Without a list: every policy x light, balance, power, and brdf; until settled, or "
+               "30 s per scene.\n\nExamples:\n"
+               "  mis compare scenes/veach.json\n"
+               "  mis compare scenes/street.json --policy power,radiant-solid-angle --heuristic "
+               "light,power --json street-report.json\n"
+               "  mis compare scenes/single.json --strategy brdf,uniform/power --spp 256 --csv "
+               "-\n" +
+               strategy_help();
+    });
+}
+
+void add_render(CLI::App& app, RenderOptions& options)
+{
+    CLI::App& c = *app.add_subcommand("render", "a picture by one strategy");
+    c.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
+    c.add_option("--strategy", options.strategy, "by name")
+        ->type_name("NAME")
+        ->capture_default_str();
+    c.add_option("--out", options.out, "OpenEXR file")->required()->type_name("FILE.exr");
+    add_stop_options(c, options.stop);
+    add_run_options(c, options.run);
+    c.footer([] {
+        return "Without --spp, --time or --error: 64 samples per shading point.\n\nExamples:\n"
+               "  mis render scenes/veach.json --strategy power/balance --spp 256 --out veach.exr\n"
+               "  mis render scenes/hundred.json --error 0.02 --out hundred.exr\n" +
+               strategy_help();
+    });
+}
+
+void add_explain(CLI::App& app, ExplainOptions& options)
+{
+    CLI::App& c =
+        *app.add_subcommand("explain", "what a scene is made of, and which effects it calls for");
+    c.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
+    add_run_options(c, options.run);
+    add_output_options(c, options.output);
+    c.footer("Example:\n  mis explain scenes/street.json");
+}
+
+void add_replay(CLI::App& app, ReplayOptions& options)
+{
+    CLI::App& c = *app.add_subcommand("replay", "one sample again, stage by stage");
+    c.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
+    c.add_option("--strategy", options.strategy, "by name")->required()->type_name("NAME");
+    c.add_option("--point", options.point,
+                 "number of the shading point: its pixel's; probes follow")
+        ->required()
+        ->type_name("N");
+    c.add_option("--sample", options.sample, "number of the sample at that point")
+        ->required()
+        ->type_name("N");
+    add_run_options(c, options.run);
+    c.footer(
+        "Example:\n  mis replay scenes/eclipse.json --strategy power/light --point 20000 "
+        "--sample 3");
+}
+
+void add_integrate(CLI::App& app, IntegrateOptions& options)
+{
+    CLI::App& c = *app.add_subcommand(
+        "integrate", "the lecture's first example: the integral of cos θ, which is π");
+    c.add_option("--pdf", options.pdf, "density of the draws: " + densities())
+        ->type_name("NAME")
+        ->capture_default_str();
+    c.add_option("--exponent", options.exponent, "m of blinn, at least 0 (10)")->type_name("M");
+    c.add_option("-n", options.samples, "draws, from 1 to 1e9")
+        ->type_name("N")
+        ->capture_default_str();
+    c.add_option("--seed", options.seed, "seed of the random numbers")
+        ->check(seed_fault)
+        ->capture_default_str();
+    add_output_options(c, options.output);
+    c.footer("Densities:\n" + densities_help() +
+             "\nExamples:\n  mis integrate\n  mis integrate --pdf angles -n 1e6\n"
+             "  mis integrate --pdf blinn --exponent 100\n  mis integrate --pdf cosine --csv -");
+}
+
+void add_predict(CLI::App& app, PredictOptions& options)
+{
+    CLI::App& c = *app.add_subcommand(
+        "predict",
+        "exact mean and variance of every strategy at a scene's probes, without random numbers");
+    c.add_option("scene", options.scene, "scene file with probes")->required()->type_name("SCENE");
+    c.add_option("--policy", options.policies, "light-choice policies, separated by commas")
+        ->type_name("LIST");
+    c.add_option("--heuristic", options.heuristics, "heuristics")->type_name("LIST");
+    c.add_option("--technique", options.techniques, "techniques of the light draw")
+        ->type_name("LIST");
+    c.add_option("--model", options.models, "multi, one-sample")->type_name("LIST");
+    c.add_option("--strategy", options.strategies, "strategies by name; with it alone, just these")
+        ->type_name("LIST");
+    c.add_option("--threads", options.threads, "threads to run on (0: as many as the machine has)");
+    c.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
+    add_output_options(c, options.output);
+    c.footer(
+        "Each figure stands with a bound of its error. Lights hide one another, spheres among the "
+        "surfaces hide\n"
+        "lights; meshes and quads must provably hide none.\n\nExamples:\n"
+        "  mis predict scenes/eclipse.json\n"
+        "  mis predict scenes/eclipse.json --strategy power/light,power/power/union,brdf\n"
+        "  mis predict scenes/overlap.json --policy all --heuristic cutoff,maximum --json -");
+}
+
+/// The command line as one would type it again.
+std::string typed(int argc, char** argv)
+{
+    std::string line = "mis";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool plain =
+            !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[](){}<>|&;#~") == std::string::npos;
+        std::string quoted = "'";
+        for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += " " + (plain ? word : quoted + "'");
+    }
+    return line;
+}
+
+/// Throws UsageError where the first word is no command.
+void check_command(const CLI::App& app, int argc, char** argv)
+{
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return;
+    const std::string_view near = nearest_name(argv[1], known);
+    throw UsageError(
+        fmt::format("found command \"{}\"; known are {}{}", argv[1], comma_list(known),
+                    near.empty() ? "" : fmt::format("\n    Did you mean \"{}\"?", near)));
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv)
+{
+    CLI::App app(
+        "mis ranks the ways to choose a light: direct lighting from spherical sources, by variance "
+        "and by time.");
+    app.set_version_flag("--version", std::string("mis ") + MIS_VERSION);
+    app.require_subcommand(1);
+    app.footer("mis COMMAND --help shows each command's options and examples.");
+    CompareOptions compare;
+    RenderOptions render;
+    ExplainOptions explain;
+    IntegrateOptions integrate;
+    add_compare(app, compare);
+    add_render(app, render);
+    add_explain(app, explain);
+    add_integrate(app, integrate);
+    PredictOptions predict;
+    add_predict(app, predict);
+    ReplayOptions replay;
+    add_replay(app, replay);
+    check_command(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const int code = app.exit(error);
+        return code == 0 ? ok : usage;
+    }
+    const std::string line = typed(argc, argv);
+    if (app.got_subcommand("compare")) return compare.run.command_line = line, run_compare(compare);
+    if (app.got_subcommand("render")) return render.run.command_line = line, run_render(render);
+    if (app.got_subcommand("explain")) return explain.run.command_line = line, run_explain(explain);
+    if (app.got_subcommand("predict")) return predict.command_line = line, run_predict(predict);
+    if (app.got_subcommand("replay")) return replay.run.command_line = line, run_replay(replay);
+    return integrate.command_line = line, run_integrate(integrate);
+}
+
+}  // namespace mis::cli

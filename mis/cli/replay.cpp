@@ -1,0 +1,79 @@
+#include "mis/engine/replay.h"
+#include "mis/cli/commands.h"
+#include "mis/cli/ready.h"
+#include "mis/compare/study_points.h"
+#include "mis/strategy/names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mis::cli {
+
+namespace {
+
+struct Found {
+    const Tile* tile;
+    const ShadingPoint* point;
+};
+
+/// Throws UsageError where no point that can be lit has that id.
+Found find_point(const StudyPoints& points, std::uint32_t id, const std::string& scene)
+{
+    for (const Tile& tile : points.shading.tiles) {
+        const auto own = std::span(points.shading.points).subspan(tile.first, tile.count);
+        const auto at =
+            std::find_if(own.begin(), own.end(), [&](const ShadingPoint& p) { return p.id == id; });
+        if (at != own.end()) return {&tile, &*at};
+    }
+    throw UsageError(fmt::format(
+        "--point: found {}, which is no point of {} that can be lit\n    A point's number is its "
+        "pixel's, row by row from the top, at the same --resolution; after all pixels, the "
+        "probe's.",
+        id, scene));
+}
+
+void print_steps(const Replay& replay)
+{
+    fmt::print("\n{:<5} {:>3} {:<15} {:>7} {:>9} {:>9} {:>9}  {}\n", "half", "", "stage", "light",
+               "P(light)", "p light", "p bsdf", "contribution");
+    for (const ReplayStep& s : replay.steps)
+        fmt::print("{:<5} {:>3} {:<15} {}\n", s.is_light_half ? "light" : "bsdf", s.draw,
+                   stage_names[static_cast<std::size_t>(s.stage)],
+                   s.is_alive
+                       ? fmt::format("{:>7} {:>9.3g} {:>9.3g} {:>9.3g}  {:.3g} {:.3g} {:.3g}",
+                                     s.light, s.probability, s.light_pdf, s.bsdf_pdf,
+                                     s.contribution.x, s.contribution.y, s.contribution.z)
+                       : std::string("      - meets nothing"));
+}
+
+template <class T>
+Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Strategy& strategy,
+                    const Found& found, bool prints)
+{
+    const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), options.run.seed);
+    const Replay again = replay(lit, ready, *found.tile, *found.point, options.sample);
+    if (prints) print_steps(again);
+    return again.value;
+}
+
+}  // namespace
+
+int run_replay(const ReplayOptions& options)
+{
+    const Strategy strategy = parse_strategy(options.strategy);
+    const ReadyScene ready(options.scene, options.run);
+    const StudyPoints points = find_study_points(ready.lit, ready.executor);
+    const Found found = find_point(points, options.point, options.scene);
+    const Vec3<double>& x = found.point->x;
+    fmt::print("{}: {}, point {} at {:.6g} {:.6g} {:.6g}, sample {}, seed {}, {}\n", options.scene,
+               name_of(strategy), options.point, x.x, x.y, x.z, options.sample, options.run.seed,
+               kernels<float>().instruction_set);
+    const Vec3<double> in_float = run_in<float>(options, ready.lit, strategy, found, true),
+                       in_double = run_in<double>(options, ready.lit, strategy, found, false);
+    fmt::print("\nvalue in float   {:.9g} {:.9g} {:.9g}\nvalue in double  {:.9g} {:.9g} {:.9g}\n",
+               in_float.x, in_float.y, in_float.z, in_double.x, in_double.y, in_double.z);
+    return ok;
+}
+
+}  // namespace mis::cli

@@ -1,0 +1,70 @@
+#include "mis/engine/replay.h"
+
+#include "mis/engine/light_columns.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace mis {
+
+namespace {
+
+template <class T> ReplayStep step_after(StageKind stage, bool is_light_half, const Batch<T>& batch)
+{
+    const auto number = [](T x) { return static_cast<double>(x); };
+    return {.is_light_half = is_light_half,
+            .draw = batch.draw,
+            .stage = stage,
+            .is_alive = batch.rows > 0,
+            .light = batch.light[0],
+            .probability = number(batch.probability[0]),
+            .wi = vec_cast<double>(batch.wi.at(0)),
+            .distance = number(batch.distance[0]),
+            .light_pdf = number(batch.light_pdf[0]),
+            .bsdf_pdf = number(batch.bsdf_pdf[0]),
+            .contribution = vec_cast<double>(batch.contribution.at(0))};
+}
+
+}  // namespace
+
+template <class T>
+Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Tile& tile,
+              const ShadingPoint& point, std::uint64_t sample)
+{
+    const Pipeline<T>& pipeline = strategy.pipeline(tile.material);
+    TileJob<T> job = strategy.job(tile, {&point, 1});
+    const std::size_t lights = scene.scene().lights.size();
+    std::vector<T> columns;
+    if (pipeline.looks_at_point || lights <= most_screened_lights)
+        job.columns = fill_light_columns(*job.lights, job.origin, columns);
+    const auto batch = std::make_unique<Batch<T>>();
+    Scratch scratch(std::max<std::size_t>(pipeline.table_bytes, 1));
+    batch->samples = 1;
+    batch->points = 1;
+    batch->sample_number[0] = sample;
+    if (pipeline.prepare != nullptr) pipeline.prepare(job, *batch, 0, scratch);
+
+    Replay found;
+    const auto run_half = [&](const std::vector<NamedStage<T>>& stages, bool is_light_half,
+                              std::uint32_t draw) {
+        batch->draw = draw;
+        for (const NamedStage<T>& stage : stages) {
+            stage.run(job, *batch);
+            found.steps.push_back(step_after(stage.kind, is_light_half, *batch));
+        }
+    };
+    const auto light_draws = static_cast<std::uint32_t>(
+        static_cast<std::size_t>(pipeline.light_draws) * (pipeline.draws_every_light ? lights : 1));
+    for (std::uint32_t draw = 0; draw < light_draws; ++draw) run_half(pipeline.light, true, draw);
+    for (int draw = 0; draw < pipeline.bsdf_draws; ++draw)
+        run_half(pipeline.bsdf, false, static_cast<std::uint32_t>(draw));
+    found.value = batch->value.at(0);
+    return found;
+}
+
+template Replay replay(const LitScene&, const ReadyStrategy<float>&, const Tile&,
+                       const ShadingPoint&, std::uint64_t);
+template Replay replay(const LitScene&, const ReadyStrategy<double>&, const Tile&,
+                       const ShadingPoint&, std::uint64_t);
+
+}  // namespace mis
