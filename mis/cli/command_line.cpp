@@ -33,15 +33,15 @@ std::string strategy_help()
            "Techniques:\n" + names_of(technique_names());
 }
 
-/// What is wrong with the text of a seed, or nothing; the parser's own conversion would wrap −1
-/// around.
-std::string seed_fault(const std::string& text)
+/// What is wrong with the text of a whole number of that type, or nothing; the parser's own
+/// conversion would wrap −1 around.
+template <class Number> std::string whole_number_fault(const std::string& text)
 {
-    std::uint64_t seed = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    Number number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error == std::errc{} && end == text.data() + text.size()) return "";
-    return fmt::format("found \"{}\"; a seed is a whole number from 0 to {}", text,
-                       std::numeric_limits<std::uint64_t>::max());
+    return fmt::format("found \"{}\"; a whole number from 0 to {} is needed", text,
+                       std::numeric_limits<Number>::max());
 }
 
 /// --threads, --seed, --quiet, --resolution, --effects, --sampler.
@@ -51,7 +51,7 @@ void add_run_options(CLI::App& command, RunOptions& options)
                        "threads to run on (0: as many as the machine has)");
     command.add_option("--seed", options.seed, "seed of the random numbers")
         ->capture_default_str()
-        ->check(seed_fault);
+        ->check(whole_number_fault<std::uint64_t>);
     command.add_option("--resolution", options.resolution,
                        "picture size WxH in place of the scene's");
     command
@@ -155,9 +155,11 @@ void add_replay(CLI::App& app, ReplayOptions& options)
     c.add_option("--point", options.point,
                  "number of the shading point: its pixel's; probes follow")
         ->required()
+        ->check(whole_number_fault<std::uint32_t>)
         ->type_name("N");
     c.add_option("--sample", options.sample, "number of the sample at that point")
         ->required()
+        ->check(whole_number_fault<std::uint64_t>)
         ->type_name("N");
     add_run_options(c, options.run);
     c.footer(
@@ -177,7 +179,7 @@ void add_integrate(CLI::App& app, IntegrateOptions& options)
         ->type_name("N")
         ->capture_default_str();
     c.add_option("--seed", options.seed, "seed of the random numbers")
-        ->check(seed_fault)
+        ->check(whole_number_fault<std::uint64_t>)
         ->capture_default_str();
     add_output_options(c, options.output);
     c.footer("Densities:\n" + densities_help() +

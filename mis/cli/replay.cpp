@@ -33,18 +33,32 @@ Found find_point(const StudyPoints& points, std::uint32_t id, const std::string&
         id, scene));
 }
 
+/// A figure, or a dash where no stage has come to it yet.
+std::string cell(double value) { return value == 0 ? "-" : fmt::format("{:.4g}", value); }
+
+std::string described(const ReplayStep& s)
+{
+    if (!s.is_alive) return "nothing is left of this draw";
+    const std::string light = s.light == no_light ? "-" : std::to_string(s.light);
+    if (s.stage == StageKind::numbers)
+        return fmt::format("random numbers {:.9g} {:.9g} {:.9g}", s.u, s.v, s.lobe);
+    if (s.stage == StageKind::draw)
+        return fmt::format("{:>5} direction {:.7g} {:.7g} {:.7g}", light, s.wi.x, s.wi.y, s.wi.z);
+    const Vec3<double>& c = s.contribution;
+    const bool has_value = c != Vec3<double>(0);
+    return fmt::format("{:>5} {:>8} {:>9} {:>9}  {}", light, cell(s.probability), cell(s.light_pdf),
+                       cell(s.bsdf_pdf),
+                       has_value ? fmt::format("{:.4g} {:.4g} {:.4g}", c.x, c.y, c.z) : "-");
+}
+
 void print_steps(const Replay& replay)
 {
-    fmt::print("\n{:<5} {:>3} {:<15} {:>7} {:>9} {:>9} {:>9}  {}\n", "half", "", "stage", "light",
-               "P(light)", "p light", "p bsdf", "contribution");
+    fmt::print("\n{:<7} {:<15} {:>5} {:>8} {:>9} {:>9}  {}\n", "draw", "after", "light", "P(light)",
+               "p light", "p bsdf", "f cos, then contribution");
     for (const ReplayStep& s : replay.steps)
-        fmt::print("{:<5} {:>3} {:<15} {}\n", s.is_light_half ? "light" : "bsdf", s.draw,
-                   stage_names[static_cast<std::size_t>(s.stage)],
-                   s.is_alive
-                       ? fmt::format("{:>7} {:>9.3g} {:>9.3g} {:>9.3g}  {:.3g} {:.3g} {:.3g}",
-                                     s.light, s.probability, s.light_pdf, s.bsdf_pdf,
-                                     s.contribution.x, s.contribution.y, s.contribution.z)
-                       : std::string("      - meets nothing"));
+        fmt::print("{:<7} {:<15} {}\n",
+                   fmt::format("{} {}", s.is_light_half ? "light" : "bsdf", s.draw),
+                   stage_names[static_cast<std::size_t>(s.stage)], described(s));
 }
 
 template <class T>

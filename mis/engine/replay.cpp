@@ -17,12 +17,26 @@ template <class T> ReplayStep step_after(StageKind stage, bool is_light_half, co
             .stage = stage,
             .is_alive = batch.rows > 0,
             .light = batch.light[0],
+            .u = number(batch.u[0]),
+            .v = number(batch.v[0]),
+            .lobe = number(batch.lobe[0]),
             .probability = number(batch.probability[0]),
             .wi = vec_cast<double>(batch.wi.at(0)),
             .distance = number(batch.distance[0]),
             .light_pdf = number(batch.light_pdf[0]),
             .bsdf_pdf = number(batch.bsdf_pdf[0]),
             .contribution = vec_cast<double>(batch.contribution.at(0))};
+}
+
+/// Forgets the half before, so that what a step shows is of its own half.
+template <class T> void clear_row(Batch<T>& batch)
+{
+    batch.light[0] = no_light;
+    for (Column<T>* column : {&batch.u, &batch.v, &batch.lobe, &batch.probability, &batch.distance,
+                              &batch.light_pdf, &batch.bsdf_pdf})
+        (*column)[0] = T(0);
+    batch.wi.put(0, Vec3<T>(T(0)));
+    batch.contribution.put(0, Vec3<T>(T(0)));
 }
 
 }  // namespace
@@ -48,9 +62,11 @@ Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Til
     const auto run_half = [&](const std::vector<NamedStage<T>>& stages, bool is_light_half,
                               std::uint32_t draw) {
         batch->draw = draw;
+        clear_row(*batch);
         for (const NamedStage<T>& stage : stages) {
             stage.run(job, *batch);
             found.steps.push_back(step_after(stage.kind, is_light_half, *batch));
+            if (batch->rows == 0) return;
         }
     };
     const auto light_draws = static_cast<std::uint32_t>(

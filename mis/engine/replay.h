@@ -11,8 +11,9 @@ struct ReplayStep {
     bool is_light_half;
     std::uint32_t draw;  ///< number of the draw within its half
     StageKind stage;
-    bool is_alive;  ///< a row is left: the draw may still contribute
-    LightIndex light;
+    bool is_alive;               ///< a row is left: the draw may still contribute
+    LightIndex light;            ///< no_light until one is chosen or met
+    double u, v, lobe;           ///< random numbers of the draw, in [0, 1)
     double probability;          ///< of the light
     Vec3<double> wi;             ///< scene axes
     double distance;             ///< to the light
@@ -26,7 +27,7 @@ struct Replay {
 };
 
 /// One sample again, stage by stage: the same numbers, the same arithmetic, every intermediate
-/// result. Columns that a stage has not filled yet hold what the draw before left.
+/// result. What no stage of the half has filled yet is 0; a half ends where nothing is left of it.
 template <class T>
 Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Tile& tile,
               const ShadingPoint& point, std::uint64_t sample);

@@ -55,6 +55,8 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare", "scenes is required"},
         BadLine{"compare /no/such.json", "no such file"},
         BadLine{"compare .", "found a directory"},
+        BadLine{"replay VEACH --strategy brdf --point 20000 --sample -1", "found \"-1\""},
+        BadLine{"replay VEACH --strategy brdf --point 99999999 --sample 1", "no point of"},
         BadLine{"compare VEACH --policy powr", "Did you mean \"power\""},
         BadLine{"compare VEACH --heuristic balanced", "Did you mean \"balance\""},
         BadLine{"compare VEACH --strategy uniform/brdf", "say \"brdf\""},
@@ -164,6 +166,16 @@ TEST(CommandLine, FailsWithExitCode1OnAFullDisk)
                                      "' --resolution 8x8 --spp 4 --quiet --json /dev/full");
     EXPECT_EQ(outcome.exit, 1) << outcome.error;
     EXPECT_NE(outcome.error.find("/dev/full"), std::string::npos) << outcome.error;
+}
+
+TEST(CommandLine, ReplaysASampleStageByStage)
+{
+    const Outcome run =
+        mis_with("replay " + scene("veach") + " --strategy uniform/power --point 20000 --sample 3");
+    EXPECT_EQ(run.exit, 0) << run.error;
+    for (const char* words :
+         {"random numbers", "direction", "light_occlusion", "value in float", "value in double"})
+        EXPECT_NE(run.out.find(words), std::string::npos) << words << "\n" << run.out;
 }
 
 }  // namespace

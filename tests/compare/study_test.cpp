@@ -11,6 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace mis {
 namespace {
@@ -62,6 +65,27 @@ TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
             EXPECT_EQ(a.probes[0].mean, b.probes[0].mean);
             EXPECT_EQ(a.status, b.status);
         }
+    }
+}
+
+/// A light whose radiance is no number, which no file can bring in.
+TEST(Study, TrapsOnTheFirstSampleThatIsNoNumberAndSaysHowToReplayIt)
+{
+    Scene scene = small_picture();
+    scene.file = "lamps.json";
+    scene.lights.front().radiance_radius = Vec3<float>(std::numeric_limits<float>::quiet_NaN());
+    const auto strategies = named({"uniform/power"});
+    const Study counted = study_of(scene, strategies, {.spp = 8});
+    EXPECT_GT(counted.report.strategies[0].invalid_samples, 0U);
+    try {
+        study_of(scene, strategies, {.spp = 8, .traps_invalid = true});
+        FAIL() << "nothing was trapped";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what())
+                      .find("mis replay lamps.json --strategy uniform/power "
+                            "--point "),
+                  std::string::npos)
+            << error.what();
     }
 }
 
