@@ -34,7 +34,9 @@ function(mis_add_kernels target)
     if(ARGN)
       add_library(mis_kernels_${isa} OBJECT ${ARGN})
       target_link_libraries(mis_kernels_${isa} PRIVATE mis_headers)
-      target_compile_definitions(mis_kernels_${isa} PRIVATE MIS_ISA=${isa})
+      # xsimd's own scalar helpers carry no name of the instruction set that they are compiled for: they get one.
+      target_compile_definitions(mis_kernels_${isa} PRIVATE MIS_ISA=${isa}
+        __ieee754_rem_pio2=__ieee754_rem_pio2_${isa} __kernel_rem_pio2=__kernel_rem_pio2_${isa})
       target_compile_options(mis_kernels_${isa} PRIVATE ${MIS_KERNEL_FLAGS} ${MIS_FLAGS_${isa}})
       target_sources(${target} PRIVATE $<TARGET_OBJECTS:mis_kernels_${isa}>)
     endif()

@@ -6,10 +6,11 @@
 
 namespace mis {
 
-// One pair per instruction set that was compiled (engine/kernels.cpp).
-#define MIS_DECLARE_KERNELS(isa)                 \
-    const Kernels<float>& kernels_float_##isa(); \
-    const Kernels<double>& kernels_double_##isa();
+// One pair per instruction set that was compiled (engine/kernels.cpp). They fill what stands here,
+// so that no constructor or destructor is compiled for more than the baseline.
+#define MIS_DECLARE_KERNELS(isa)            \
+    void fill_float_##isa(Kernels<float>&); \
+    void fill_double_##isa(Kernels<double>&);
 MIS_DECLARE_KERNELS(scalar)
 MIS_DECLARE_KERNELS(avx2)
 MIS_DECLARE_KERNELS(avx512)
@@ -24,6 +25,16 @@ struct InstructionSet {
     const Kernels<double>& (*kernels_double)();
 };
 
+template <class T, void (*fill)(Kernels<T>&)> const Kernels<T>& filled()
+{
+    static const Kernels<T> kernels = [] {
+        Kernels<T> empty{};
+        fill(empty);
+        return empty;
+    }();
+    return kernels;
+}
+
 /// Best first.
 std::vector<InstructionSet> available()
 {
@@ -31,16 +42,19 @@ std::vector<InstructionSet> available()
 #if defined(MIS_HAS_AVX512)
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512cd"))
-        sets.push_back({"avx512", kernels_float_avx512, kernels_double_avx512});
+        sets.push_back(
+            {"avx512", filled<float, fill_float_avx512>, filled<double, fill_double_avx512>});
 #endif
 #if defined(MIS_HAS_AVX2)
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        sets.push_back({"avx2", kernels_float_avx2, kernels_double_avx2});
+        sets.push_back({"avx2", filled<float, fill_float_avx2>, filled<double, fill_double_avx2>});
 #endif
 #if defined(MIS_HAS_NEON64)
-    sets.push_back({"neon64", kernels_float_neon64, kernels_double_neon64});
+    sets.push_back(
+        {"neon64", filled<float, fill_float_neon64>, filled<double, fill_double_neon64>});
 #endif
-    sets.push_back({"scalar", kernels_float_scalar, kernels_double_scalar});
+    sets.push_back(
+        {"scalar", filled<float, fill_float_scalar>, filled<double, fill_double_scalar>});
     return sets;
 }
 

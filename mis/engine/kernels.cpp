@@ -57,10 +57,9 @@ void prepare_tables(const TileJob<T>& job, Batch<T>& batch, std::size_t first, S
     }
 }
 
-template <class T> Kernels<T> make_kernels()
+template <class T> void fill_kernels(Kernels<T>& kernels)
 {
     using V = instruction_set::Lanes<T>;
-    Kernels<T> kernels{};
     kernels.instruction_set = instruction_set::name;
     kernels.lanes = lane_count<V>;
     kernels.light_numbers = light_numbers<T>;
@@ -71,9 +70,10 @@ template <class T> Kernels<T> make_kernels()
     for_each_type(Policies{}, [&]<class P>() {
         using Table = TableOf<P, V, T>;
         kernels.policies.push_back({P::name, P::draws_every_light, P::looks_at_point,
-                                    P::table_bytes, prepare_tables<V, P, T>,
-                                    choose_light<P, Table, T>, price_light<Table, T>,
-                                    sum_light_draw<Table, T>, sum_bsdf_draw<Table, T>});
+                                    [](std::size_t lights) { return P::table_bytes(lights); },
+                                    prepare_tables<V, P, T>, choose_light<P, Table, T>,
+                                    price_light<Table, T>, sum_light_draw<Table, T>,
+                                    sum_bsdf_draw<Table, T>});
     });
     for_each_type(Techniques{}, [&]<class K>() {
         if constexpr (K::chooses_light)
@@ -91,7 +91,6 @@ template <class T> Kernels<T> make_kernels()
     for_each_type(Heuristics{}, [&]<class H>() {
         kernels.heuristics.push_back({H::name, weigh_light<V, H, T>, weigh_bsdf<V, H, T>});
     });
-    return kernels;
 }
 
 }  // namespace MIS_ISA
@@ -99,16 +98,8 @@ template <class T> Kernels<T> make_kernels()
 #define MIS_JOIN_OF(a, b) a##b
 #define MIS_JOIN(a, b) MIS_JOIN_OF(a, b)
 
-/// What the engine calls: kernels_float_avx2() and its kin (engine/kernel_choice.cpp).
-const Kernels<float>& MIS_JOIN(kernels_float_, MIS_ISA)()
-{
-    static const Kernels<float> kernels = make_kernels<float>();
-    return kernels;
-}
-const Kernels<double>& MIS_JOIN(kernels_double_, MIS_ISA)()
-{
-    static const Kernels<double> kernels = make_kernels<double>();
-    return kernels;
-}
+/// What the engine calls: fill_float_avx2() and its kin (engine/kernel_choice.cpp).
+void MIS_JOIN(fill_float_, MIS_ISA)(Kernels<float>& kernels) { MIS_ISA::fill_kernels(kernels); }
+void MIS_JOIN(fill_double_, MIS_ISA)(Kernels<double>& kernels) { MIS_ISA::fill_kernels(kernels); }
 
 }  // namespace mis
