@@ -24,7 +24,7 @@ std::vector<double> rough_weights(const StudyGround& ground);
 
 /// How many times the mean number of samples each tile should get so that the variances of all of
 /// these strategies come out most exact: in proportion to √(Σ μ4/V² per point), between half and
-/// eight times (stratified sampling, Neyman 1934; docs/theory.md). From samples that count for
+/// 32 times (stratified sampling, Neyman 1934; docs/theory.md). From samples that count for
 /// nothing else.
 std::vector<double> best_tile_factors(const StudyGround& ground,
                                       std::span<const Strategy> strategies);

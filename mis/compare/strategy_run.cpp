@@ -203,4 +203,27 @@ void StrategyRun::add_costs(StrategyMeasurements& m) const
     m.rays = static_cast<std::uint64_t>(std::llround(rays));
 }
 
+std::vector<double> pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
+                                 std::size_t points)
+{
+    std::vector<double> sums(points);
+    double weights = 0;
+    for (const auto& run : runs) {
+        if (!run || run->samples() == 0) continue;
+        double variance = 0, mean = 0;
+        for (const PointResult& result : run->results()) {
+            if (result.luminance.count > 1) variance += result.luminance.variance();
+            mean += std::abs(result.luminance.mean);
+        }
+        const double n = std::max<double>(1, static_cast<double>(run->results().size()));
+        const double floor = 1e-12 * (mean / n) * (mean / n) + 1e-300;
+        const double weight = static_cast<double>(run->samples()) / (variance / n + floor);
+        weights += weight;
+        for (std::size_t p = 0; p < sums.size(); ++p)
+            sums[p] += weight * run->results()[p].luminance.mean;
+    }
+    for (double& sum : sums) sum = weights > 0 ? sum / weights : 0;
+    return sums;
+}
+
 }  // namespace mis

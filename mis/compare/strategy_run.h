@@ -4,6 +4,7 @@
 #include "mis/compare/study_points.h"
 #include "mis/engine/lit_scene.h"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -79,5 +80,10 @@ private:
     std::vector<TimeObservation> times_;
     std::uint64_t samples_ = 0;
 };
+
+/// μ of every point: the means of the strategies that were run (others are null), each by its
+/// samples over its variance. All 0 where none was.
+std::vector<double> pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
+                                 std::size_t points);
 
 }  // namespace mis

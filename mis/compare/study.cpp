@@ -3,6 +3,7 @@
 #include "mis/compare/affordable.h"
 #include "mis/compare/pool.h"
 #include "mis/compare/schedule.h"
+#include "mis/compare/study_audit.h"
 #include "mis/compare/words.h"
 #include "mis/strategy/names.h"
 
@@ -103,7 +104,7 @@ private:
         weights_ = rough_weights(ground());
         spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, all of twos
         if (spreads_) tile_factors_ = best_tile_factors(ground(), quick);
-        run_audit();
+        audit_.emplace(ground(), weights_, ran());
     }
 
     StudyGround ground()
@@ -115,6 +116,14 @@ private:
     {
         study_.runs[s] =
             std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s], options_.seed);
+    }
+
+    std::vector<Strategy> ran() const
+    {
+        std::vector<Strategy> strategies;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            if (study_.runs[s]) strategies.push_back(strategies_[s]);
+        return strategies;
     }
 
     /// CPU seconds of `first_samples` at every point, over the strategies that are run.
@@ -133,36 +142,6 @@ private:
             allocation.push_back(
                 options_.spp ? chunk : std::max(2, static_cast<int>(std::lround(factor * chunk))));
         return allocation;
-    }
-
-    void run_audit()
-    {
-        std::size_t prepared = 1;
-        for (const Strategy& s : strategies_)
-            prepared += s.chooses_light() && looks_at_point(s.policy) ? 1 : 0;
-        const std::size_t affordable =
-            50'000'000 / (prepared * scene_.scene().lights.size() + 1) + 4;
-        audited_ = spread_points(*study_.points, std::min<std::size_t>(1024, affordable));
-        std::vector<AuditPoint> at;
-        for (const std::size_t p : audited_)
-            at.push_back({study_.points->shading.points[p], material_of(p), weights_[p]});
-        std::vector<Strategy> run;
-        for (std::size_t s = 0; s < strategies_.size(); ++s)
-            if (study_.runs[s]) run.push_back(strategies_[s]);
-        const std::vector<AuditEstimate> estimates =
-            audit(scene_, at, run, options_.seed, executor_);
-        audit_.resize(strategies_.size());
-        for (std::size_t s = 0, k = 0; s < strategies_.size(); ++s)
-            if (study_.runs[s]) audit_[s] = estimates[k++];
-    }
-
-    int material_of(std::size_t point) const
-    {
-        const std::vector<Tile>& tiles = study_.points->shading.tiles;
-        const auto after =
-            std::upper_bound(tiles.begin(), tiles.end(), point,
-                             [](std::size_t p, const Tile& tile) { return p < tile.first; });
-        return std::prev(after)->material;
     }
 
     /// `chunk` samples for every replicate: in one round, or in several in which they take turns.
@@ -287,34 +266,12 @@ private:
         return any;
     }
 
-    /// μ of every point: the strategies' means, each by its samples over its variance.
-    std::vector<double> pooled_means() const
-    {
-        std::vector<double> sums(study_.points->shading.points.size());
-        double weights = 0;
-        for (const auto& run : study_.runs) {
-            if (!run || run->samples() == 0) continue;
-            double variance = 0, mean = 0;
-            for (const PointResult& result : run->results()) {
-                if (result.luminance.count > 1) variance += result.luminance.variance();
-                mean += std::abs(result.luminance.mean);
-            }
-            const double n = std::max<double>(1, static_cast<double>(run->results().size()));
-            const double floor = 1e-12 * (mean / n) * (mean / n) + 1e-300;
-            const double weight = static_cast<double>(run->samples()) / (variance / n + floor);
-            weights += weight;
-            for (std::size_t p = 0; p < sums.size(); ++p)
-                sums[p] += weight * run->results()[p].luminance.mean;
-        }
-        for (double& sum : sums) sum = weights > 0 ? sum / weights : 0;
-        return sums;
-    }
-
     /// share: of the probabilities of error that this look spends.
     void rank_now(double share)
     {
         const RelativeScale scale =
-            relative_scale(pooled_means(), *study_.points, scene_.scene().camera.has_value());
+            relative_scale(pooled_means(study_.runs, study_.points->shading.points.size()),
+                           *study_.points, scene_.scene().camera.has_value());
         study_.report.epsilon = scale.epsilon;
         SceneMeasurements scene{points(), {}};
         for (std::size_t s = 0; s < strategies_.size(); ++s)
@@ -344,7 +301,7 @@ private:
         }
         StrategyMeasurements m = study_.runs[s]->measurements(scale);
         m.all_samples_equal_reference = is_dark();
-        if (s < audit_.size() && audit_[s].available) add_audit(m, s);
+        if (audit_) audit_->add_to(m, study_.runs[s]->results());
         return m;
     }
 
@@ -355,29 +312,6 @@ private:
         return points() == 0 || std::all_of(lights.begin(), lights.end(), [](const Light& light) {
                    return light.radiance_radius == Vec3<float>(0.0F);
                });
-    }
-
-    void add_audit(StrategyMeasurements& m, std::size_t s) const
-    {
-        const double n = static_cast<double>(audited_.size());
-        double squares = 0, relative_squares = 0;
-        Audit own{.available = true, .relative_available = true};
-        for (const std::size_t p : audited_) {
-            const Moments& moments = study_.runs[s]->results()[p].luminance;
-            if (moments.count < 2) return;
-            const double variance = moments.variance() / n, se = moments.variance_se() / n;
-            own.own_variance += variance;
-            own.own_relative_variance += variance * weights_[p];
-            squares += se * se;
-            relative_squares += se * se * weights_[p] * weights_[p];
-        }
-        own.own_variance_se = std::sqrt(squares);
-        own.own_relative_variance_se = std::sqrt(relative_squares);
-        own.variance_from_others = audit_[s].variance;
-        own.variance_from_others_se = audit_[s].variance_se;
-        own.relative_variance_from_others = audit_[s].relative_variance;
-        own.relative_variance_from_others_se = audit_[s].relative_variance_se;
-        m.audit = own;
     }
 
     void finish()
@@ -400,8 +334,7 @@ private:
     std::vector<bool> rests_;
     bool spreads_ = false;  ///< samples over tiles
     std::vector<double> weights_, tile_factors_;
-    std::vector<std::size_t> audited_;
-    std::vector<AuditEstimate> audit_;
+    std::optional<StudyAudit> audit_;
 };
 
 }  // namespace
