@@ -18,6 +18,7 @@ struct FourFloats {
     __m128 lanes;
 };
 MIS_INLINE FourFloats four(float x) { return {_mm_set1_ps(x)}; }
+MIS_INLINE FourFloats four_of(const float* from) { return {_mm_loadu_ps(from)}; }
 MIS_INLINE FourFloats operator*(FourFloats a, FourFloats b)
 {
     return {_mm_mul_ps(a.lanes, b.lanes)};
@@ -44,6 +45,7 @@ template <class Of> MIS_INLINE FourFloats each(const Of& of)
     return {{of(0), of(1), of(2), of(3)}};
 }
 MIS_INLINE FourFloats four(float x) { return {{x, x, x, x}}; }
+MIS_INLINE FourFloats four_of(const float* from) { return {{from[0], from[1], from[2], from[3]}}; }
 MIS_INLINE FourFloats operator*(FourFloats a, FourFloats b)
 {
     return each([&](int k) { return a.lanes[k] * b.lanes[k]; });
