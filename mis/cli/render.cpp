@@ -46,6 +46,7 @@ struct Outcome {
     std::size_t shading_points = 0;
     double error = 0;
     bool is_partial = false;
+    std::optional<int> unlit_from;  ///< first row without samples, where interrupted before them
 };
 
 /// A given number of samples: band by band, so that memory does not grow with the picture.
@@ -66,10 +67,13 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
         Band band = find_band(ready.lit, row, std::min(band_rows, height - row), ready.executor);
         constexpr std::uint64_t step = 16;
+        std::uint64_t sampled = 0;
         for (std::uint64_t s = 0; s < spp && !outcome.is_partial; s += step) {
             const int count = static_cast<int>(std::min(step, spp - s));
             outcome.invalid +=
-                light_band(strategy, band, s, count, workspaces, ready.executor).invalid;
+                light_band(strategy, band, s, count, workspaces, ready.executor, &interrupt_flag())
+                    .invalid;
+            sampled += static_cast<std::uint64_t>(count);
             outcome.is_partial = interrupt_flag();
             progress.show(
                 "rendering",
@@ -77,7 +81,12 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
         }
         outcome.shading_points += band.results.size() + band.shading.dark.size();
         draw_band(ready.lit, band, outcome.image);
-        if (band.shading.rows == height) outcome.error = relative_error(band);
+        if (band.shading.rows == height) {
+            outcome.samples = sampled;
+            outcome.error = relative_error(band);
+        } else if (outcome.is_partial) {
+            outcome.unlit_from = row + band.shading.rows;
+        }
     }
     return outcome;
 }
@@ -100,8 +109,9 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     bool is_done = false;
     while (!is_done) {
         const auto round = std::chrono::steady_clock::now();
-        outcome.invalid +=
-            light_band(strategy, band, outcome.samples, count, workspaces, ready.executor).invalid;
+        outcome.invalid += light_band(strategy, band, outcome.samples, count, workspaces,
+                                      ready.executor, &interrupt_flag())
+                               .invalid;
         outcome.samples += static_cast<std::uint64_t>(count);
         outcome.is_partial = interrupt_flag();
         outcome.error = relative_error(band);
@@ -124,6 +134,18 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     }
     draw_band(ready.lit, band, outcome.image);
     return outcome;
+}
+
+}  // namespace
+
+namespace {
+
+std::string interruption(const Outcome& outcome)
+{
+    if (!outcome.is_partial) return "";
+    if (!outcome.unlit_from) return " (partial: interrupted)";
+    return fmt::format(" (partial: interrupted; its last rows have fewer, and from row {} none)",
+                       *outcome.unlit_from);
 }
 
 }  // namespace
@@ -160,8 +182,7 @@ int run_render(const RenderOptions& options)
         fmt::print(stderr,
                    "{}: {} x {} pixels, {} shading points, {} samples each by {}, {:.2f} s{}\n",
                    options.out, outcome.image.width, outcome.image.height, outcome.shading_points,
-                   outcome.samples, name_of(strategy), seconds_since(start),
-                   outcome.is_partial ? " (partial: interrupted)" : "");
+                   outcome.samples, name_of(strategy), seconds_since(start), interruption(outcome));
         if (outcome.error > 0)
             fmt::print(stderr, "relative error of the estimate: {:.3g} %\n", 100 * outcome.error);
         if (outcome.invalid > 0)

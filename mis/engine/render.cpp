@@ -12,11 +12,13 @@ Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor
 }
 
 TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first,
-                      int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+                      int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor,
+                      const std::atomic<bool>* stop)
 {
     const GBuffer& shading = band.shading;
     std::vector<TileTotals> totals(shading.tiles.size());
     executor.for_each(shading.tiles.size(), [&](std::size_t t) {
+        if (stop != nullptr && *stop) return;
         const Tile& tile = shading.tiles[t];
         const auto points = std::span(shading.points).subspan(tile.first, tile.count);
         workspaces.with([&](Workspace<float>& workspace) {

@@ -2,6 +2,7 @@
 
 #include "mis/engine/lit_scene.h"
 
+#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -22,9 +23,11 @@ struct Band {
 /// The shading points of a picture's rows, unlit.
 Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor);
 
-/// Adds samples [first, first + count) to every shading point. Returns what it cost.
+/// Adds samples [first, first + count) to every shading point, or to those of the tiles begun when
+/// `stop` is set. Returns what it cost.
 TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first,
-                      int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor);
+                      int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor,
+                      const std::atomic<bool>* stop = nullptr);
 
 /// The band's pixels into the image: means at shading points, lights that the camera sees, black
 /// elsewhere.
