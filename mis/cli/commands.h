@@ -20,8 +20,8 @@ int run_render(const RenderOptions& options);
 
 struct CompareOptions {
     std::vector<std::string> scenes;
-    std::string policies, heuristics, techniques, models,
-        strategies;  ///< lists; empty: the default
+    std::optional<std::string> policies, heuristics, techniques, models,
+        strategies;  ///< lists; the default where not given
     double at = 16;
     std::string out;  ///< folder, or empty
     bool force = false, trap = false;
@@ -62,8 +62,8 @@ int run_integrate(const IntegrateOptions& options);
 
 struct PredictOptions {
     std::string scene;
-    std::string policies, heuristics, techniques, models,
-        strategies;   ///< lists; empty: the default
+    std::optional<std::string> policies, heuristics, techniques, models,
+        strategies;   ///< lists; the default where not given
     int threads = 0;  ///< 0: as many as the machine has
     bool quiet = false;
     std::string command_line;

@@ -95,6 +95,9 @@ int run_compare(const CompareOptions& options)
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
+    if (options.scenes.size() > 1)  // a wrong one is found before the first is measured
+        for (const std::string& file : options.scenes)
+            check_memory(read_scene_for(file, options.run), selection.strategies.size());
     for (const std::string& file : options.scenes) {
         const ReadyScene ready(file, options.run);
         check_memory(ready.scene, selection.strategies.size());

@@ -245,8 +245,7 @@ int run_integrate(const IntegrateOptions& options)
                           .seed = options.seed,
                           .samples = samples_of(options),
                           .densities = entries_of(options)};
-    if (options.output.json == "-" && options.output.csv == "-")
-        throw UsageError("--json and --csv: found - for both; standard output holds one of them");
+    check(options.output);
     watch_for_interrupt();
     const Console console(options.output);
     console.print(fmt::format("∫ cos θ dω over the hemisphere = π = {:.6f}, seed {}\n",

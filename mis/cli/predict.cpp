@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
 
 namespace mis::cli {
 
@@ -37,9 +38,13 @@ PredictReport::Scene predicted_scene(const Scene& scene, const StrategySelection
                                 .strategies = selection.strategies,
                                 .probes = std::vector<PredictReport::Probe>(scene.probes.size())};
     Progress progress(!quiet);
+    std::mutex showing;
+    std::size_t done = 0;
     progress.show("integrating", 0);
     executor.for_each(scene.probes.size(), [&](std::size_t p) {
         result.probes[p] = predicted(scene, scene.probes[p], selection.strategies, tolerance);
+        const std::lock_guard lock(showing);
+        progress.show("integrating", double(++done) / double(scene.probes.size()));
     });
     return result;
 }
@@ -51,8 +56,7 @@ int run_predict(const PredictOptions& options)
     const StrategySelection selection =
         select_strategies({options.policies, options.heuristics, options.techniques, options.models,
                            options.strategies});
-    if (options.output.json == "-" && options.output.csv == "-")
-        throw UsageError("--json and --csv: found - for both; standard output holds one of them");
+    check(options.output);
     RunOptions run;
     run.threads = options.threads;
     const AnyExecutor executor = make_executor(run);

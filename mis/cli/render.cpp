@@ -3,6 +3,7 @@
 #include "mis/cli/interrupt.h"
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
+#include "mis/compare/resolved.h"
 #include "mis/engine/render.h"
 #include "mis/io/image_exr.h"
 #include "mis/strategy/strategy.h"
@@ -11,6 +12,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <optional>
+#include <span>
 
 namespace mis::cli {
 
@@ -21,22 +25,44 @@ double seconds_since(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// √ of the mean over the shading points of the estimate's variance over μ² + ε² (design §1).
-double relative_error(const Band& band)
+/// How far off the picture is: √ of the mean of variance/n/(μ² + ε²) over its points (design §1),
+/// and how many samples carry that.
+struct PictureError {
+    double relative = 0;
+    Participation participation;
+
+    bool is_dark() const { return participation.sum_d2 == 0; }
+    bool is_resolved() const { return is_dark() || participation.number() >= least_participation; }
+};
+
+/// μ is a point's own mean or its tile's, whichever gives more: where few points have been hit at
+/// all, their own means are far too high, and the others' variances look like 0.
+PictureError error_of(const Band& band)
 {
+    PictureError error;
     double mean = 0;
-    std::size_t points = 0;
-    for (const PointResult& result : band.results) mean += result.luminance.mean, ++points;
-    points += band.shading.dark.size();
-    if (points == 0) return 0;
-    const double epsilon = 0.01 * mean / static_cast<double>(points);
-    double sum = 0;
-    for (const PointResult& result : band.results) {
-        const double n = static_cast<double>(result.luminance.count), mu = result.luminance.mean;
-        if (result.luminance.m2 > 0)
-            sum += result.luminance.variance() / n / (mu * mu + epsilon * epsilon);
+    for (const PointResult& result : band.results) mean += result.luminance.mean;
+    const auto points = static_cast<double>(band.results.size() + band.shading.dark.size());
+    if (points == 0) return error;
+    const double epsilon2 = square(0.01 * mean / points);
+    double by_point = 0, by_tile = 0;
+    for (const Tile& tile : band.shading.tiles) {
+        double tile_mean = 0, variance = 0;
+        for (const PointResult& result : std::span(band.results).subspan(tile.first, tile.count)) {
+            const Moments& m = result.luminance;
+            tile_mean += m.mean / tile.count;
+            if (!(m.m2 > 0)) continue;
+            const double weight = 1 / (square(m.mean) + epsilon2);
+            const double own = m.variance() / static_cast<double>(m.count);
+            variance += own;
+            by_point += own * weight;
+            error.participation.sum_d2 += m.m2 * weight;
+            error.participation.sum_d4 += m.m4 * weight * weight;
+        }
+        if (variance > 0) by_tile += variance / (square(tile_mean) + epsilon2);
     }
-    return std::sqrt(sum / static_cast<double>(points));
+    error.relative = std::sqrt(std::max(by_point, by_tile) / points);
+    return error;
 }
 
 /// What a render comes to, whichever way it stopped.
@@ -44,7 +70,7 @@ struct Outcome {
     Image image;
     std::uint64_t samples = 0, invalid = 0;  ///< samples: per shading point
     std::size_t shading_points = 0;
-    double error = 0;
+    std::optional<PictureError> error;  ///< not of a picture in several bands
     bool is_partial = false;
     std::optional<int> unlit_from;  ///< first row without samples, where interrupted before them
 };
@@ -83,7 +109,7 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
         draw_band(ready.lit, band, outcome.image);
         if (band.shading.rows == height) {
             outcome.samples = sampled;
-            outcome.error = relative_error(band);
+            outcome.error = error_of(band);
         } else if (outcome.is_partial) {
             outcome.unlit_from = row + band.shading.rows;
         }
@@ -114,7 +140,7 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
                                .invalid;
         outcome.samples += static_cast<std::uint64_t>(count);
         outcome.is_partial = interrupt_flag();
-        outcome.error = relative_error(band);
+        outcome.error = error_of(band);
         const double seconds_per_sample = seconds_since(round) / count;
         if (stop.seconds) {
             const double left = *stop.seconds - seconds_since(start);
@@ -123,12 +149,17 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
             progress.show("rendering", seconds_since(start) / *stop.seconds);
         } else {
             const double wanted = *stop.error;
-            is_done = outcome.error <= wanted;
+            const double error = outcome.error->relative;
+            constexpr std::uint64_t enough_of_darkness = 1024;  // all samples 0: it may well be 0
+            is_done = outcome.error->is_dark() ? outcome.samples >= enough_of_darkness
+                                               : outcome.error->is_resolved() && error <= wanted;
             const double needed =
-                double(outcome.samples) * (outcome.error * outcome.error / (wanted * wanted) - 1);
+                outcome.error->is_resolved()
+                    ? double(outcome.samples) * (error * error / (wanted * wanted) - 1)
+                    : double(outcome.samples);
             count =
                 static_cast<int>(std::clamp(needed, 1.0, std::min(64.0, double(outcome.samples))));
-            progress.show("rendering", wanted * wanted / (outcome.error * outcome.error));
+            progress.show("rendering", error > 0 ? wanted * wanted / (error * error) : 0);
         }
         is_done = is_done || outcome.is_partial || band.results.empty();
     }
@@ -139,6 +170,18 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
 }  // namespace
 
 namespace {
+
+std::string in_words(const PictureError& error)
+{
+    if (error.is_dark())
+        return "relative error of the estimate: unknown, all samples of a point agree";
+    if (!error.is_resolved())
+        return fmt::format(
+            "relative error of the estimate: not resolved, {:.0f} samples carry it and "
+            "{:.0f} are needed",
+            error.participation.number(), least_participation);
+    return fmt::format("relative error of the estimate: {:.3g} %", 100 * error.relative);
+}
 
 std::string interruption(const Outcome& outcome)
 {
@@ -153,6 +196,10 @@ std::string interruption(const Outcome& outcome)
 int run_render(const RenderOptions& options)
 {
     check(options.stop, 1);
+    if (!options.out.ends_with(".exr"))
+        throw UsageError(fmt::format(
+            "--out: found \"{}\"; the picture is an OpenEXR file: its name ends in .exr",
+            options.out));
     check_output_file("--out", options.out);
     const Strategy strategy = parse_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
@@ -183,8 +230,7 @@ int run_render(const RenderOptions& options)
                    "{}: {} x {} pixels, {} shading points, {} samples each by {}, {:.2f} s{}\n",
                    options.out, outcome.image.width, outcome.image.height, outcome.shading_points,
                    outcome.samples, name_of(strategy), seconds_since(start), interruption(outcome));
-        if (outcome.error > 0)
-            fmt::print(stderr, "relative error of the estimate: {:.3g} %\n", 100 * outcome.error);
+        if (outcome.error) fmt::print(stderr, "{}\n", in_words(*outcome.error));
         if (outcome.invalid > 0)
             fmt::print(stderr, "{} samples were not finite and count as 0\n", outcome.invalid);
     }

@@ -21,10 +21,10 @@ std::vector<std::string> names_of(const std::vector<Choosable>& list)
 }
 
 /// The names of a list option, each of them known.
-std::vector<std::string> listed(const std::string& option, const std::string& given,
+std::vector<std::string> listed(const std::string& option, const std::optional<std::string>& given,
                                 const std::string& otherwise, const std::vector<std::string>& known)
 {
-    const std::vector<std::string> names = split_list(given.empty() ? otherwise : given, option);
+    const std::vector<std::string> names = split_list(given.value_or(otherwise), option);
     const std::vector<std::string_view> views(known.begin(), known.end());
     for (const std::string& name : names) {
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
@@ -78,11 +78,10 @@ void add_product(StrategySelection& selection, const StrategyLists& lists)
 StrategySelection select_strategies(const StrategyLists& lists)
 {
     StrategySelection selection;
-    const bool has_lists = !(lists.policies.empty() && lists.heuristics.empty() &&
-                             lists.techniques.empty() && lists.models.empty());
-    if (has_lists || lists.strategies.empty()) add_product(selection, lists);
-    if (!lists.strategies.empty())
-        for (const std::string& name : split_list(lists.strategies, "--strategy"))
+    const bool has_lists = lists.policies || lists.heuristics || lists.techniques || lists.models;
+    if (has_lists || !lists.strategies) add_product(selection, lists);
+    if (lists.strategies)
+        for (const std::string& name : split_list(*lists.strategies, "--strategy"))
             add(selection, parse_strategy(name));
     if (selection.strategies.empty())
         throw UsageError("no strategy is left:\n    " + selection.left_out.front());

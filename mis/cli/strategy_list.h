@@ -2,14 +2,15 @@
 
 #include "mis/strategy/strategy.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace mis::cli {
 
-/// What `compare` was asked for: comma lists, empty where nothing was said.
+/// What `compare` was asked for: comma lists; nothing where nothing was said.
 struct StrategyLists {
-    std::string policies, heuristics, techniques, models, strategies;
+    std::optional<std::string> policies, heuristics, techniques, models, strategies;
 };
 
 /// The strategies to rank, each once, in the order asked for, and those of a product of lists that

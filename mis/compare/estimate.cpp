@@ -111,7 +111,9 @@ LogEstimate median(std::vector<double> values)
     // The interval [k-th smallest, k-th largest] misses the median with probability 2 P(Binomial(n,
     // ½) < k).
     const boost::math::binomial flips(as_double(n), 0.5);
-    std::size_t k = 1;
+    auto k = static_cast<std::size_t>(
+        std::max(1.0, std::floor(boost::math::quantile(flips, interval_tail))));
+    while (k > 1 && boost::math::cdf(flips, as_double(k - 1)) > interval_tail) --k;
     while (boost::math::cdf(flips, as_double(k)) <= interval_tail) ++k;
     const double missed = boost::math::cdf(flips, as_double(k - 1));
     const double half_width = 0.5 * (values[n - k] - values[k - 1]);

@@ -31,6 +31,7 @@ void set_states(std::vector<StrategyReport>& reports, const SceneMeasurements& s
             exclude(reports[i], Status::not_run, s.not_run_reason);
         } else if (!unresolved.empty()) {
             exclude(reports[i], Status::not_resolved, unresolved);
+            reports[i].resolving_factor = resolving_factor(s);
             reports[i].exact = false;
         } else {
             reports[i].status = Status::ranked;

@@ -4,6 +4,7 @@
 #include "mis/strategy/strategy.h"
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -49,6 +50,8 @@ struct StrategyReport {
     double bias_p_value = 1;        ///< against the reference pooled from the others, corrected
     double rare_share =
         0;  ///< share of the variance at points where rare samples carry it (pool.cpp)
+    double resolving_factor =
+        1;  ///< about how many times as many samples would resolve it; 1 where it is
     double effective_samples =
         0;  ///< how many samples carry the variance (measurements.h, Participation)
     std::uint64_t invalid_samples = 0;
@@ -75,7 +78,9 @@ struct EffectReport {
     bool on = true;
     double share = 1;  ///< of the tiles where it is on
     std::string why;
-    double saved_rays_per_sample = 0, saved_seconds_per_sample = 0;
+    double saved_rays_per_sample = std::numeric_limits<double>::quiet_NaN(),
+           saved_seconds_per_sample =
+               std::numeric_limits<double>::quiet_NaN();  ///< NaN: not measured
 };
 
 struct SceneReport {

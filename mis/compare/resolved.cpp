@@ -73,6 +73,16 @@ double relative_error(const StrategyMeasurements& s, double ReplicateValues::*fi
 
 }  // namespace
 
+double resolving_factor(const StrategyMeasurements& s)
+{
+    double factor = audit_fault(s).empty() ? 1 : 2;
+    if (s.replicates.size() < 2 || s.pooled.variance <= 0) return 4;
+    for (const Participation* p : {&s.pooled.participation, &s.pooled.relative_participation})
+        if (p->sum_d4 > 0) factor = std::max(factor, least_participation / p->number());
+    const double spread = relative_error(s, &ReplicateValues::variance) / largest_relative_error;
+    return std::isfinite(spread) ? std::max(factor, spread * spread) : std::max(factor, 4.0);
+}
+
 std::string why_not_resolved(const StrategyMeasurements& s)
 {
     const PooledFigures& pooled = s.pooled;

@@ -29,4 +29,9 @@ inline constexpr double audit_factor = 1.2;
 /// replicates. Precondition: the strategy was run.
 std::string why_not_resolved(const StrategyMeasurements& strategy);
 
+/// About how many times as many samples it takes for a strategy that is not resolved to be: by its
+/// participations and the spread of its replicates; at least 2 where the audit or a variance of
+/// zero is against it, of which nobody knows.
+double resolving_factor(const StrategyMeasurements& strategy);
+
 }  // namespace mis

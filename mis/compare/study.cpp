@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace mis {
 
@@ -227,18 +228,33 @@ private:
         }
     }
 
-    /// What no undecided pair waits for rests, so that the undecided get its time, where their own
-    /// samples need it; where there is no such pair, nothing rests.
-    void let_rest()
+    /// Not resolved yet, but within the time that is left if all goes on as before.
+    bool is_worth_waiting_for(const StrategyReport& strategy) const
     {
-        const std::vector<bool> rested = rests_;
-        rests_.assign(rests_.size(), true);
+        return strategy.status == Status::not_resolved &&
+               1.5 * strategy.resolving_factor * seconds_since(start_) < budget();
+    }
+
+    /// Whom the next rounds are for: undecided pairs, where their own samples need it; once there
+    /// is none, those that may yet be resolved. Else all. The others rest.
+    std::vector<bool> resting() const
+    {
+        std::vector<bool> rests(strategies_.size(), true);
         for (const PairReport& pair : study_.report.pairs)
             if (pair.verdict == Verdict::undecided)
-                rests_[static_cast<std::size_t>(pair.a)] =
-                    rests_[static_cast<std::size_t>(pair.b)] = false;
-        if (std::find(rests_.begin(), rests_.end(), false) == rests_.end())
-            rests_.assign(rests_.size(), false);
+                rests[static_cast<std::size_t>(pair.a)] = rests[static_cast<std::size_t>(pair.b)] =
+                    false;
+        if (std::find(rests.begin(), rests.end(), false) == rests.end())
+            for (std::size_t s = 0; s < rests.size(); ++s)
+                rests[s] = !is_worth_waiting_for(study_.report.strategies[s]);
+        if (std::find(rests.begin(), rests.end(), false) == rests.end())
+            rests.assign(rests.size(), false);
+        return rests;
+    }
+
+    void let_rest()
+    {
+        const std::vector<bool> rested = std::exchange(rests_, resting());
         if (!spreads_ || rests_ == rested) return;
         std::vector<Strategy> awake;
         for (std::size_t s = 0; s < rests_.size(); ++s)
@@ -253,17 +269,21 @@ private:
 
     bool is_enough() const
     {
-        if (stops_when_settled()) return study_.report.settled;
+        const std::vector<StrategyReport>& strategies = study_.report.strategies;
+        if (stops_when_settled())
+            return study_.report.settled &&
+                   std::none_of(strategies.begin(), strategies.end(),
+                                [&](const StrategyReport& s) { return is_worth_waiting_for(s); });
         if (!options_.error) return false;
         bool any = false;
-        for (const StrategyReport& s : study_.report.strategies) {
+        for (const StrategyReport& s : strategies) {
             if (s.status != Status::ranked) continue;
             any = true;
             if (s.variance.value > 0 &&
                 !(s.variance.high - s.variance.low <= 2 * *options_.error * s.variance.value))
                 return false;
         }
-        return any;
+        return any || seconds_since(start_) > options_.default_seconds;  // else without end
     }
 
     /// share: of the probabilities of error that this look spends.

@@ -1,5 +1,7 @@
 #include "mis/engine/gbuffer.h"
 
+#include "mis/scene/direction.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -15,8 +17,8 @@ class PixelRays {
 public:
     explicit PixelRays(const Camera& camera) : camera_(camera)
     {
-        forward_ = normalized(camera.target - camera.position);
-        right_ = normalized(cross(forward_, camera.up));
+        forward_ = unit_or_zero(camera.target - camera.position);
+        right_ = unit_or_zero(cross(forward_, camera.up));
         up_ = cross(right_, forward_);
         half_height_ = std::tan(camera.vertical_fov_degrees * std::numbers::pi / 360);
     }
@@ -41,11 +43,25 @@ struct Found {
     std::vector<Background> background;
 };
 
-/// Files a point under its material, or as dark: on the inside of a light, or seen from below its
-/// surface.
-void add_point(Found& found, const ShadingPoint& point, int material, const LightHierarchy& lights)
+/// Are all lights below the point's tangent plane, by more than the rounding of its normal?
+bool faces_no_light(const ShadingPoint& point, const Lights& lights)
 {
-    if (!(dot(point.n, point.wo) > 0) || lights.contains(point.x)) found.dark.push_back(point.id);
+    constexpr std::size_t most = 1024;  // to look at
+    if (lights.size() > most) return false;
+    const Vec3<double> n = vec_cast<double>(point.n);
+    return std::all_of(lights.begin(), lights.end(), [&](const Light& light) {
+        const Vec3<double> to_center = light.center - point.x;
+        return dot(n, to_center) < -light.radius - 1e-6 * (length(to_center) + light.radius);
+    });
+}
+
+/// Files a point under its material, or as dark: on the inside of a light, seen from below its
+/// surface, or facing no light.
+void add_point(Found& found, const ShadingPoint& point, int material, const Lights& all,
+               const LightHierarchy& lights)
+{
+    if (!(dot(point.n, point.wo) > 0) || lights.contains(point.x) || faces_no_light(point, all))
+        found.dark.push_back(point.id);
     else found.by_material[material].push_back(point);
 }
 
@@ -67,7 +83,7 @@ void add_pixel(Found& found, const Scene& scene, const PixelRays& rays,
     add_point(found,
               {hit->x, vec_cast<float>(hit->n), vec_cast<float>(-direction),
                vec_cast<float>(off - surfaces->origin()), id},
-              hit->material, lights);
+              hit->material, scene.lights, lights);
 }
 
 void append(GBuffer& buffer, const Found& found)
@@ -126,7 +142,7 @@ GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
         add_point(found,
                   {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing),
                    vec_cast<float>(off), pixels + static_cast<std::uint32_t>(p)},
-                  probe.material, lights);
+                  probe.material, scene.lights, lights);
         append(buffer, found);
     }
     return buffer;

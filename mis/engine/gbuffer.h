@@ -32,7 +32,7 @@ struct GBuffer {
     std::vector<ShadingPoint> points;  ///< in the order of the tiles
     std::vector<Tile> tiles;           ///< points that can be lit
     std::vector<std::uint32_t>
-        dark;  ///< ids of points that see no light: inside one, or seen from below
+        dark;  ///< ids of points that see no light: inside one, seen from below, or above all of them
     std::vector<Background> background;
 };
 

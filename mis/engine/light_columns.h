@@ -19,7 +19,7 @@ LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& ori
         T(1));  // the padding is a light of radius 1 at distance √3: finite, and never read
     std::array<std::span<T>, 5> column;
     for (std::size_t k = 0; k < 5; ++k) column[k] = std::span(storage).subspan(k * padded, padded);
-    double largest = 0;
+    double largest = lights.empty() ? 1 : 0;  // of no lights nothing is read
     for (std::size_t j = 0; j < count; ++j) {
         const Vec3<T> center = vec_cast<T>(lights[j].center - origin);
         column[0][j] = center.x, column[1][j] = center.y, column[2][j] = center.z;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <concepts>
+#include <limits>
 #include <string_view>
 
 namespace mis {
@@ -22,10 +23,14 @@ concept Heuristic = requires(const std::array<T, 2>& density, std::size_t i) {
 };
 // clang-format on
 
-/// a/b, where two infinities (and two zeros) are as one to one.
+/// a/b for a, b ≥ 0; ∞ over 0, but two infinities (and two zeros) are as one to one.
 template <class T> MIS_INLINE T density_ratio(const T& a, const T& b)
 {
-    return select(a == b, number<T>(1), a / b);
+    const T one = number<T>(1);
+    const auto is_zero = b == number<T>(0);
+    const T ratio = a / select(is_zero, one, b);
+    return select(a == b, one,
+                  select(is_zero, number<T>(std::numeric_limits<double>::infinity()), ratio));
 }
 
 /// `weight`, or 0 where the technique cannot have drawn this.

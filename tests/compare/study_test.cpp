@@ -68,6 +68,33 @@ TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
     }
 }
 
+/// At the first look half of the strategies have too few samples to be ranked: the two that are
+/// apart by then do not end the study.
+TEST(Study, WaitsForStrategiesThatCanStillBeResolved)
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    std::vector<Strategy> strategies;
+    for (const char* policy : {"uniform", "power", "solid-angle", "radiant-solid-angle"})
+        for (const char* heuristic : {"light", "balance", "power"})
+            strategies.push_back(parse_strategy(std::string(policy) + "/" + heuristic));
+    const Study study = study_of(scene, strategies, {.default_seconds = 20});
+    for (const StrategyReport& s : study.report.strategies)
+        EXPECT_EQ(s.status, Status::ranked) << name_of(s.strategy) << ": " << s.reason;
+}
+
+/// No light is above the floor: every sample is 0, and that is proved.
+TEST(Study, IsExactWhereNoPointFacesALight)
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    for (Light& light : scene.lights) light.center.y = -5 - light.radius;
+    const Study study = study_of(scene, named({"uniform/light", "brdf"}), {.spp = 8});
+    for (const StrategyReport& s : study.report.strategies) {
+        EXPECT_EQ(s.status, Status::ranked) << s.reason;
+        EXPECT_TRUE(s.exact);
+        EXPECT_EQ(s.mean, 0);
+    }
+}
+
 /// A light whose radiance is no number, which no file can bring in.
 TEST(Study, TrapsOnTheFirstSampleThatIsNoNumberAndSaysHowToReplayIt)
 {
