@@ -152,10 +152,11 @@ bool times_changed(const Changes& changes)
 
 std::string summary(const Changes& changes)
 {
-    std::string text = wrapped(fmt::format(
-        "{} compared, {} changed; at most {} that any of these is wrong. ~: no change is seen; "
-        "~±9%: if there is one, it is below 9 % (95 %).",
-        many(changes.comparisons, "figure"), changes.changed, percent(changes.error)));
+    std::string text = wrapped(
+        fmt::format("{} compared, {} changed; at most {} that chance alone made any of these. ~: "
+                    "no change is seen; "
+                    "~±9%: if there is one, it is below 9 % (95 %).",
+                    many(changes.comparisons, "figure"), changes.changed, percent(changes.error)));
     if (times_changed(changes))
         text += wrapped(
             "Times also change with what else the machine was doing: each interval knows its own "
