@@ -116,10 +116,11 @@ case ${1-} in
         cmake -S "$root" --preset fuzz >&2
         (cd "$root" && cmake --build --preset fuzz >&2)
         corpus=$root/build/fuzz/corpus
-        for reader in scene table; do
+        for reader in scene table report; do
             mkdir -p "$corpus/$reader"
             case $reader in
                 scene) cp "$root"/scenes/*.json "$corpus/scene/" ;;
+                report) cp "$root"/tests/fuzz/report.json "$corpus/report/" ;;
                 table) cp "$root"/scenes/*.csv "$corpus/table/" 2>/dev/null || printf 'x,y,z,radius,r,g,b\n0,1,2,.5,1,1,1\n' >"$corpus/table/one.csv" ;;
             esac
             say "$reader reader, ${2-600} s"

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
 
@@ -86,7 +87,8 @@ void add_compare(CLI::App& app, CompareOptions& options)
 {
     CLI::App& c = *app.add_subcommand(
         "compare", "rank strategies by variance and by efficiency, on your own scenes");
-    c.add_option("scenes", options.scenes, "scene files; or two reports (.json) of earlier runs")
+    c.add_option("scenes", options.scenes,
+                 "scene files; or two reports (--json) of earlier runs, the older first")
         ->required()
         ->type_name("SCENE");
     c.add_option("--policy", options.policies, "light-choice policies, separated by commas")
@@ -101,6 +103,11 @@ void add_compare(CLI::App& app, CompareOptions& options)
     c.add_option("--at", options.at, "samples per point that the efficiency is for")
         ->type_name("N")
         ->capture_default_str();
+    c.add_option(
+         "--fail-on-regression", options.fail_on_regression,
+         "of two reports: exit code 1 where a variance or a cost surely grew by more than P "
+         "percent, a mean changed or a strategy is newly biased")
+        ->type_name("P");
     c.add_option("--out", options.out, "folder for the whole report")->type_name("DIR");
     c.add_flag("--force", options.force, "write into a folder that exists");
     c.add_flag("--trap", options.trap,
@@ -109,14 +116,28 @@ void add_compare(CLI::App& app, CompareOptions& options)
     add_output_options(c, options.output);
     c.footer([] {
         return "Without a list: every policy x light, balance, power, and brdf; until settled, or "
-               "30 s per scene.\n\nExamples:\n"
+               "30 s per scene. Two reports: what changed, and how sure that is.\n\nExamples:\n"
                "  mis compare scenes/veach.json\n"
                "  mis compare scenes/street.json --policy power,radiant-solid-angle --heuristic "
                "light,power --json street-report.json\n"
                "  mis compare scenes/single.json --strategy brdf,uniform/power --spp 256 --csv "
-               "-\n" +
+               "-\n"
+               "  mis compare old-report.json new-report.json --fail-on-regression 5\n" +
                strategy_help();
     });
+}
+
+/// The options given on the line that mean nothing where two reports are compared.
+std::vector<std::string> given_for_scenes(const CLI::App& compare)
+{
+    const std::array<std::string_view, 5> for_reports{"scenes", "--fail-on-regression", "--json",
+                                                      "--csv", "--quiet"};
+    std::vector<std::string> given;
+    for (const CLI::Option* option : compare.get_options())
+        if (option->count() > 0 && std::find(for_reports.begin(), for_reports.end(),
+                                             option->get_name()) == for_reports.end())
+            given.push_back(option->get_name());
+    return given;
 }
 
 void add_render(CLI::App& app, RenderOptions& options)
@@ -273,6 +294,7 @@ int run_command_line(int argc, char** argv)
         return code == 0 ? ok : usage;
     }
     const std::string line = typed(argc, argv);
+    compare.given_for_scenes = given_for_scenes(*app.get_subcommand("compare"));
     if (app.got_subcommand("compare")) return compare.run.command_line = line, run_compare(compare);
     if (app.got_subcommand("render")) return render.run.command_line = line, run_render(render);
     if (app.got_subcommand("explain")) return explain.run.command_line = line, run_explain(explain);

@@ -23,13 +23,19 @@ struct CompareOptions {
     std::optional<std::string> policies, heuristics, techniques, models,
         strategies;  ///< lists; the default where not given
     double at = 16;
-    std::string out;  ///< folder, or empty
+    std::optional<double> fail_on_regression;  ///< percent; of two reports
+    std::vector<std::string>
+        given_for_scenes;  ///< options on the line that two reports do not take
+    std::string out;       ///< folder, or empty
     bool force = false, trap = false;
     RunOptions run;
     StopOptions stop;
     OutputOptions output;
 };
 int run_compare(const CompareOptions& options);
+/// The same where the files are two reports: what changed. Returns `failed` after a regression, if
+/// --fail-on-regression is given.
+int run_changes(const CompareOptions& options);
 
 struct ExplainOptions {
     std::string scene;

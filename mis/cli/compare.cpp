@@ -8,11 +8,13 @@
 #include "mis/compare/study.h"
 #include "mis/io/report_csv.h"
 #include "mis/io/report_json.h"
+#include "mis/io/report_peek.h"
 #include "mis/io/report_text.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace mis::cli {
@@ -77,6 +79,12 @@ void write_outputs(const CompareOptions& options, const Report& report)
 
 int run_compare(const CompareOptions& options)
 {
+    if (std::any_of(options.scenes.begin(), options.scenes.end(), is_report_file))
+        return run_changes(options);
+    if (options.fail_on_regression)
+        throw UsageError(
+            "--fail-on-regression: found scenes; it takes two reports, as --json wrote them: mis "
+            "compare OLD.json NEW.json");
     check_options(options);
     const StrategySelection selection =
         select_strategies({options.policies, options.heuristics, options.techniques, options.models,

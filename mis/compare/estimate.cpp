@@ -140,6 +140,14 @@ double two_sided_p(const LogEstimate& estimate, double at)
     return std::min(1.0, 2 * upper_tail(distance / estimate.se, estimate.dof));
 }
 
+double upper_p(const LogEstimate& estimate, double at)
+{
+    const double excess = estimate.value - at;
+    if (std::isnan(excess) || std::isnan(estimate.se)) return 1;
+    if (estimate.se == 0) return excess > 0 ? 0 : 1;
+    return upper_tail(excess / estimate.se, estimate.dof);
+}
+
 Interval interval_of(const LogEstimate& log_figure)
 {
     return interval_about(std::exp(log_figure.value), log_figure);

@@ -47,6 +47,10 @@ LogEstimate median(std::vector<double> values);
 /// error is not known.
 double two_sided_p(const LogEstimate& estimate, double at = 0);
 
+/// P(T ≥ (value − at) / se): how surprising the estimate is if the truth is `at` or below. 1 where
+/// the error is not known.
+double upper_p(const LogEstimate& estimate, double at);
+
 /// P(T ≥ t) of Student's t.
 double upper_tail(double t, double dof);
 

@@ -65,6 +65,7 @@ PointFigures point_figures(const Moments& moments)
 
 void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figures& figures)
 {
+    report.timed_rounds = static_cast<int>(s.times.size());
     std::vector<double> per_sample, per_point;
     for (const TimeObservation& time : s.times) {
         per_sample.push_back(time.seconds_per_sample);

@@ -18,21 +18,6 @@ double p_of_not_tied(const LogEstimate& ratio, double margin)
     return upper_tail(room / ratio.se, ratio.dof);
 }
 
-/// Holm 1979: which hypotheses fall, with at most `error` probability that any of them is true.
-std::vector<bool> holm(std::span<const double> p, double error)
-{
-    std::vector<std::size_t> order(p.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t j) { return p[i] < p[j]; });
-    std::vector<bool> rejected(p.size(), false);
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        if (p[order[k]] * static_cast<double>(order.size() - k) > error) break;
-        rejected[order[k]] = true;
-    }
-    return rejected;
-}
-
 std::vector<double> p_values(std::span<const Comparison> family,
                              const std::function<double(const LogEstimate&)>& p)
 {
@@ -59,6 +44,20 @@ double replicates_for(double gap, double tail, double dof)
 }
 
 }  // namespace
+
+std::vector<bool> holm(std::span<const double> p, double error)
+{
+    std::vector<std::size_t> order(p.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t j) { return p[i] < p[j]; });
+    std::vector<bool> rejected(p.size(), false);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        if (p[order[k]] * static_cast<double>(order.size() - k) > error) break;
+        rejected[order[k]] = true;
+    }
+    return rejected;
+}
 
 void decide(std::span<Comparison> family, double margin, double error)
 {

@@ -15,6 +15,9 @@ struct Comparison {
     Verdict verdict = Verdict::undecided;
 };
 
+/// Holm 1979: which hypotheses fall, with at most `error` probability that any of them is true.
+std::vector<bool> holm(std::span<const double> p, double error);
+
 /// Decides every comparison of one family.
 /// apart: the ratio is not 1. tied: neither figure is above 1 + margin times the other (two
 /// one-sided tests, Schuirmann 1987); a pair for which both hold is tied. The probability that any

@@ -40,6 +40,7 @@ struct StrategyReport {
     double mean = 0, mean_se = 0;                 ///< luminance, over the shading points
     Interval variance;                            ///< of one sample; mean over the shading points
     Interval relative_variance;                   ///< design §1
+    int timed_rounds = 0;                         ///< that the times come from
     Interval seconds_per_point;                   ///< CPU time to prepare one shading point
     Interval seconds_per_sample;                  ///< CPU time
     std::map<std::string, double> stage_seconds;  ///< per sample

@@ -1,6 +1,7 @@
 #include "mis/io/explain_report.h"
 
 #include "mis/io/atomic_file.h"
+#include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -8,11 +9,6 @@
 namespace mis {
 
 namespace {
-
-std::string many(std::size_t n, std::string_view one)
-{
-    return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
-}
 
 /// Words in lines of 80 columns, behind a label.
 std::string paragraph(const std::string& label, const std::string& text)

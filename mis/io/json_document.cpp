@@ -121,7 +121,7 @@ private:
                 file_.string(),
                 Problem{pointer(),
                         fmt::format("more than {} levels of brackets and braces", limits::nesting),
-                        fmt::format("a scene nests at most {} levels", limits::nesting),
+                        fmt::format("a file nests at most {} levels", limits::nesting),
                         "Look for a stray bracket."});
         levels_.push_back({placed});
         return true;

@@ -13,11 +13,6 @@
 #include <limits>
 
 namespace mis {
-namespace {
-
-constexpr const char* as_in_format = "See docs/scene-format.md.";
-
-}  // namespace
 
 std::string shown(const Json& value)
 {
@@ -38,7 +33,7 @@ JsonNode JsonNode::operator[](std::string_view key) const
     const auto member = value_->find(key);
     if (member == value_->end()) {
         static const Json nothing;
-        at(key, nothing).fail("nothing", fmt::format("\"{}\" is required here", key), as_in_format);
+        at(key, nothing).fail("nothing", fmt::format("\"{}\" is required here", key), guide());
     }
     return at(key, *member);
 }
@@ -53,7 +48,7 @@ std::optional<JsonNode> JsonNode::find(std::string_view key) const
 
 void JsonNode::require_object() const
 {
-    if (!value_->is_object()) fail_value("an object, { ... }, belongs here", as_in_format);
+    if (!value_->is_object()) fail_value("an object, { ... }, belongs here", guide());
 }
 
 void JsonNode::require_keys(std::span<const std::string_view> known) const
@@ -69,7 +64,7 @@ void JsonNode::require_keys(std::span<const std::string_view> known) const
 
 std::size_t JsonNode::size() const
 {
-    if (!value_->is_array()) fail_value("an array, [ ... ], belongs here", as_in_format);
+    if (!value_->is_array()) fail_value("an array, [ ... ], belongs here", guide());
     return value_->size();
 }
 
@@ -77,8 +72,7 @@ JsonNode JsonNode::element(std::size_t index) const { return at(index, (*value_)
 
 void JsonNode::require_array(std::size_t size, std::string_view allowed) const
 {
-    if (!value_->is_array() || value_->size() != size)
-        fail_value(std::string(allowed), as_in_format);
+    if (!value_->is_array() || value_->size() != size) fail_value(std::string(allowed), guide());
 }
 
 std::optional<double> JsonNode::maybe_number() const
@@ -89,7 +83,7 @@ std::optional<double> JsonNode::maybe_number() const
 
 double JsonNode::number() const
 {
-    if (!value_->is_number()) fail_value("a number belongs here", as_in_format);
+    if (!value_->is_number()) fail_value("a number belongs here", guide());
     return value_->get<double>();
 }
 
@@ -114,13 +108,13 @@ int JsonNode::pixels() const
     constexpr int largest = std::numeric_limits<int>::max();
     if (!(number == std::floor(number) && std::abs(number) <= largest))
         fail_value(fmt::format("a whole number between 1 and {} belongs here", limits::resolution),
-                   as_in_format);
+                   guide());
     return static_cast<int>(number);
 }
 
 const std::string& JsonNode::string() const
 {
-    if (!value_->is_string()) fail_value("a string, in double quotes, belongs here", as_in_format);
+    if (!value_->is_string()) fail_value("a string, in double quotes, belongs here", guide());
     return value_->get_ref<const std::string&>();
 }
 

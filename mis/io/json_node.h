@@ -16,8 +16,13 @@ namespace mis {
 /// when something is wrong.
 class JsonNode {
 public:
-    /// The whole document. `file` as the user named it.
-    JsonNode(const Json& document, std::string_view file) : value_(&document), file_(file) {}
+    /// The whole document. `file` as the user named it; `guide`: where its format is described, as
+    /// a sentence for messages.
+    JsonNode(const Json& document, std::string_view file,
+             std::string_view guide = "See docs/scene-format.md.")
+        : value_(&document), file_(file), guide_(guide)
+    {
+    }
 
     /// A member of an object; an error if there is none.
     JsonNode operator[](std::string_view key) const;
@@ -47,6 +52,7 @@ public:
 
     std::string pointer() const;
     std::string_view file() const { return file_; }
+    std::string guide() const { return std::string(guide_); }
     const Json& value() const { return *value_; }
 
     /// Throws SceneError about this value.
@@ -56,7 +62,8 @@ public:
 
 private:
     JsonNode(const JsonNode& parent, std::string_view key, std::size_t index, const Json& value)
-        : value_(&value), parent_(&parent), key_(key), index_(index), file_(parent.file_)
+        : value_(&value), parent_(&parent), key_(key), index_(index), file_(parent.file_),
+          guide_(parent.guide_)
     {
     }
 
@@ -64,7 +71,7 @@ private:
     const JsonNode* parent_ = nullptr;
     std::string_view key_;   ///< in an object; null in an array
     std::size_t index_ = 0;  ///< in an array
-    std::string_view file_;
+    std::string_view file_, guide_;
 };
 
 /// A value in a message: short, on one line, safe to print.

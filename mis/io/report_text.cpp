@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::size_t most_probes = 4;  // columns of them; the others are in --json
 
-std::string many(std::size_t count, const char* what)
-{
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 std::string heading(const SceneReport& scene)
 {
     std::string text = scene.name.empty() ? scene.file : scene.name;

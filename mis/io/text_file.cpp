@@ -26,7 +26,7 @@ namespace {
 {
     fail(file, fmt::format("more than {} bytes", limits::scene_file_bytes),
          fmt::format("a {} has at most {} bytes", kind, limits::scene_file_bytes),
-         "Split the scene.");
+         fmt::format("Split the {}.", kind));
 }
 
 /// Bytes of the UTF-8 character at the start of `rest`; 0 if there is none (RFC 3629: no overlong

@@ -76,6 +76,11 @@ std::string short_duration(double seconds)
     return fmt::format("{:.2g}us", 1e6 * seconds);
 }
 
+std::string many(std::size_t count, std::string_view what)
+{
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 void TextTable::add_remark(const std::string& first, const std::string& second,
                            const std::string& remark)
 {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mis {
@@ -29,6 +30,9 @@ std::string short_interval(const Interval& x);
 
 /// "0.83s", "12ms", "3.1m", "2.5h".
 std::string short_duration(double seconds);
+
+/// "1 light", "5 lights".
+std::string many(std::size_t count, std::string_view what);
 
 /// A table of text: columns as wide as they must be, the second ("strategy") to the left, the
 /// others to the right. If it is wider than the terminal, long cells of the second column stand on

@@ -101,6 +101,72 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
     }
 }
 
+/// A report of `mis compare` on a small scene.
+std::string report_by(const TemporaryFolder& folder, const std::string& name,
+                      const std::string& options)
+{
+    const std::string file = (folder / name).string();
+    const Outcome run =
+        mis_with("compare '" + scene("overlap") +
+                 "' --resolution 16x12 --spp 1024 --strategy power/balance,power/light " + options +
+                 " --quiet --json '" + file + "'");
+    EXPECT_EQ(run.exit, 0) << run.error;
+    return file;
+}
+
+TEST(CommandLine, ComparesTwoReports)
+{
+    const TemporaryFolder folder;
+    const std::string old_file = report_by(folder, "old.json", "--seed 1"),
+                      new_file = report_by(folder, "new.json", "--seed 2"),
+                      both = "compare '" + old_file + "' '" + new_file + "'";
+    const Outcome outcome = mis_with(both);
+    EXPECT_EQ(outcome.exit, 0) << outcome.error;
+    EXPECT_NE(outcome.out.find("The runs differ: seed 1, then 2."), std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("power/balance"), std::string::npos) << outcome.out;
+    EXPECT_EQ(mis_with(both + " --csv -").out.rfind("scene,file_before,", 0), 0U);
+
+    auto worse = nlohmann::json::parse(text_of(old_file));
+    for (auto& part : worse["scenes"][0]["strategies"][0]["variance"])
+        part = 2 * part.get<double>();
+    const std::string worse_file = folder.write("worse.json", worse.dump()).string(),
+                      to_worse = "compare '" + old_file + "' '" + worse_file + "' --json - ";
+    const Outcome failing = mis_with(to_worse + "--fail-on-regression 20");
+    EXPECT_EQ(failing.exit, 1) << failing.error;
+    EXPECT_EQ(nlohmann::json::parse(failing.out)["regression"], true);
+    EXPECT_EQ(mis_with(to_worse).exit, 0);
+    EXPECT_EQ(mis_with(to_worse + "--fail-on-regression 200").exit, 0);
+    EXPECT_EQ(
+        mis_with("compare '" + worse_file + "' '" + old_file + "' --fail-on-regression 0").exit, 0);
+}
+
+TEST(CommandLine, AnswersWhatIsWrongWithReportsWithOneMessageAndExitCode2)
+{
+    const TemporaryFolder folder;
+    const std::string report = report_by(folder, "a.json", ""), one = "'" + report + "' ",
+                      torn = "'" +
+                             folder.write("torn.json", text_of(report).substr(0, 2000)).string() +
+                             "' ",
+                      veach = "'" + scene("veach") + "' ";
+    const std::array<std::pair<std::string, std::string>, 8> lines{{
+        {one, "found one report"},
+        {one + one + one, "found 3 reports"},
+        {one + veach, "a report among scenes"},
+        {one + torn, "line "},
+        {one + one + "--spp 8 --seed 2", "--spp and --seed: found with two reports"},
+        {one + one + "--fail-on-regression -1", "--fail-on-regression: found -1"},
+        {one + one + "--fail-on-regression nan", "--fail-on-regression: found nan"},
+        {veach + "--fail-on-regression 5", "--fail-on-regression: found scenes"},
+    }};
+    for (const auto& [words, message] : lines) {
+        const Outcome outcome = mis_with("compare " + words);
+        EXPECT_EQ(outcome.exit, 2) << words << outcome.error;
+        EXPECT_NE(outcome.error.find(message), std::string::npos) << words << outcome.error;
+        EXPECT_EQ(outcome.out, "") << words;
+    }
+}
+
 TEST(CommandLine, HelpsOnEveryCommand)
 {
     for (const char* command :

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "mis/compare/changes.h"
+
+#include <string>
+
+namespace mis {
+
+/// What changed, as a terminal shows it: 80 columns, UTF-8 for ±, no colour. Per scene a table of
+/// ratios (second report over first), `~` where no change is seen, then a sentence on each strategy
+/// that changed; at the end how many did, and the regressions if these were asked for.
+std::string changes_text(const Changes& changes);
+
+}  // namespace mis
