@@ -1,11 +1,14 @@
-// The classic policies against their formulas, written down once more.
+// The policies against their formulas, written down once more.
 #include "mis/policy/all.h"
+#include "mis/policy/irradiance.h"
 #include "mis/policy/power.h"
 #include "mis/policy/radiant_solid_angle.h"
 #include "mis/policy/solid_angle.h"
 #include "mis/policy/uniform.h"
 
 #include "tests/policy/prepared.h"
+#include "tests/support/irradiance.h"
+#include "tests/support/lanes.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -55,6 +58,70 @@ TEST(RadiantSolidAnglePolicy, DrawsInProportionToLuminanceTimesSolidAngle)
         [](const Light& l) { return brightness(l) * solid_angle_from_x(l); });
 }
 
+TEST(IrradiancePolicy, DrawsInProportionToLuminanceTimesIrradianceAboveTheHorizon)
+{
+    int cut = 0;
+    expect_in_proportion<IrradiancePolicy>([&](const Light& l) {
+        const double d = length(l.center - x), s = l.radius / d, c = dot(up, l.center - x) / d;
+        cut += std::abs(c) < s;
+        return brightness(l) * s * s * exact_irradiance_over_sin2(s, c);
+    });
+    EXPECT_GT(cut, 0);
+}
+
+/// At the bottom of the sky, of this half-angle's sine, so far (of sines) above tangency.
+Light at_the_horizon(double sin_max, double rise)
+{
+    const double c = rise - sin_max;
+    return make_light_of_power(x + Vec3<double>(2 * std::sqrt(1 - c * c), 2 * c, 0), 2 * sin_max,
+                               Vec3<double>(1));
+}
+
+template <class T> void expect_draws(double sin_max, double rise, bool is_drawn)
+{
+    const Lights lights{at_the_horizon(sin_max, rise)};
+    for (const double away : {0.0, 1e3}) {  // of the origin of the columns
+        const Prepared<IrradiancePolicy, T> table(lights, x, up,
+                                                  x + Vec3<double>(away, -away, away));
+        EXPECT_EQ(table.probability(0), is_drawn ? 1 : 0)
+            << "sin_max = " << sin_max << ", rise = " << rise << ", away = " << away;
+        EXPECT_EQ(table.choose(5).light, is_drawn ? 0 : no_light);
+    }
+}
+
+/// However little of a light is above the horizon: rounding must not put it below.
+TEST(IrradiancePolicy, ALightWhoseRimIsAboveTheHorizonIsDrawn)
+{
+    for (const double s : {1e-20, 1e-8, 1e-4, 0.1, 0.5, 0.9, 0.999})
+        for (const double share : {1.0, 0.1, 1e-3, 1e-6, 1e-9, 1e-12}) {
+            expect_draws<float>(s, share * s, true);
+            expect_draws<TestLanes<float>>(s, share * s, true);
+            expect_draws<double>(s, share * s, true);
+            expect_draws<TestLanes<double>>(s, share * s, true);
+        }
+}
+
+TEST(IrradiancePolicy, ALightBelowTheHorizonIsNotDrawn)
+{
+    for (const double s : {1e-20, 1e-8, 1e-4, 0.1, 0.5}) {
+        expect_draws<float>(s, -0.01, false);
+        expect_draws<double>(s, -1e-10, false);
+    }
+}
+
+/// As rounding may put a point into a light, or onto its centre.
+TEST(IrradiancePolicy, APointInALightHasProbabilitiesThatAreNumbers)
+{
+    for (const double off : {0.0, 1e-30, 0.3, 1.0}) {
+        const Lights lights{make_light(x + Vec3<double>(0, off, 0), 1, Vec3<double>(1)),
+                            make_light(x + Vec3<double>(1, 1, 0), 0.1, Vec3<double>(1))};
+        const Prepared<IrradiancePolicy, TestLanes<float>> table(lights, x, up);
+        EXPECT_NEAR(table.sum(), 1, 1e-12) << off;
+        EXPECT_GE(table.probability(0), 0);
+        EXPECT_GT(table.probability(1), 0);
+    }
+}
+
 TEST(AllPolicy, ExpectsOneDrawOfEveryLight)
 {
     const Lights lights = thirty_lights_one_dark();
@@ -67,9 +134,11 @@ TEST(BlackLights, AreNotDrawnByPoliciesThatSeeRadiance)
     Lights lights = thirty_lights_one_dark();
     EXPECT_EQ((Prepared<PowerPolicy>(lights, x, up).probability(6)), 0);
     EXPECT_EQ((Prepared<RadiantSolidAnglePolicy>(lights, x, up).probability(6)), 0);
+    EXPECT_EQ((Prepared<IrradiancePolicy>(lights, x, up).probability(6)), 0);
     for (Light& l : lights) l.radiance_radius = Vec3<float>(0);
     EXPECT_EQ((Prepared<PowerPolicy>(lights, x, up).choose(5).light), no_light);
     EXPECT_EQ((Prepared<RadiantSolidAnglePolicy>(lights, x, up).choose(5).light), no_light);
+    EXPECT_EQ((Prepared<IrradiancePolicy>(lights, x, up).choose(5).light), no_light);
 }
 
 }  // namespace

@@ -13,9 +13,16 @@ template <class P, class T = double> class Prepared {
 public:
     using S = Scalar<T>;
     Prepared(const Lights& lights, const Vec3<double>& x, const Vec3<double>& n)
-        : policy_(lights), columns_(fill_light_columns(lights, x, storage_)),
+        : Prepared(lights, x, n, x)
+    {
+    }
+    /// origin: of the lights' columns.
+    Prepared(const Lights& lights, const Vec3<double>& x, const Vec3<double>& n,
+             const Vec3<double>& origin)
+        : policy_(lights), columns_(fill_light_columns(lights, origin, storage_)),
           scratch_(P::table_bytes(lights.size()) + 64),
-          table_(policy_.template prepare<T>({Vec3<S>(S(0)), vec_cast<S>(n)}, columns_, scratch_)),
+          table_(policy_.template prepare<T>({vec_cast<S>(x - origin), vec_cast<S>(n)}, columns_,
+                                             scratch_)),
           count_(lights.size())
     {
     }
