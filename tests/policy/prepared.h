@@ -4,6 +4,7 @@
 #include "mis/math/lanes.h"
 #include "mis/policy/light_choice.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace mis {
@@ -52,5 +53,14 @@ private:
                                          scratch_)) table_;
     std::size_t count_;
 };
+
+/// A light at distance 2 in the +x direction whose rim is `rise` (of sines) above the horizon of a
+/// point x with normal +y; sin_max is the sine of its half-angle.
+inline Light low_light(const Vec3<double>& x, double sin_max, double rise)
+{
+    const double c = rise - sin_max;
+    return make_light_of_power(x + Vec3<double>(2 * std::sqrt(1 - c * c), 2 * c, 0), 2 * sin_max,
+                               Vec3<double>(1));
+}
 
 }  // namespace mis
