@@ -56,40 +56,45 @@ template <class T> MIS_INLINE T chord_integral(const T& a, const T& b)
     return sum;
 }
 
+/// z² = 1 − cos²β/sin²θ_max, the square of the chord that the horizon cuts out of the disc, as a
+/// share of its diameter; 0 where it cuts none. From the sines where they are small, from the
+/// cosines where those are.
+template <class T> MIS_INLINE T chord2(const TiltedCap<T>& cap)
+{
+    using std::abs;
+    const T zero = number<T>(0), least = number<T>(1e-37);
+    const T s = max_of(cap.sin_max, least), m = min_of(T(abs(cap.cos_beta)), s);
+    const T by_sines = (s - m) / s * ((s + m) / s);
+    const T by_cosines =
+        (cap.sin_beta - cap.cos_max) * (cap.sin_beta + cap.cos_max) / max_of(T(s * s), least);
+    return max_of(select(s < number<T>(0.7), by_sines, by_cosines), zero);
+}
+
 /// What is left above the horizon of a cap whose centre is below it: E/sin²θ_max where cos β = −m ≤
 /// 0. K of docs/theory.md, eq. 49, in the three forms of eq. 51, of which one is always stable.
-template <class T> MIS_INLINE T sunken_irradiance_over_sin2(const TiltedCap<T>& cap)
+template <class T> MIS_INLINE T sunken_irradiance_over_sin2(const TiltedCap<T>& cap, const T& z2)
 {
     using std::abs, std::atan, std::sqrt;
     const T zero = number<T>(0), one = number<T>(1), least = number<T>(1e-37);
-    const T s = max_of(cap.sin_max, least), m = min_of(T(abs(cap.cos_beta)), one);
-    // z² = 1 − m²/s², the square of the chord that the horizon cuts out of the disc, as a share of
-    // its diameter: from the sines where they are small, from the cosines where those are.
-    const T low = min_of(m, s);
-    const T by_sines = (s - low) / s * ((s + low) / s);
-    const T by_cosines =
-        (cap.sin_beta - cap.cos_max) * (cap.sin_beta + cap.cos_max) / max_of(T(s * s), least);
-    const T z2 = max_of(select(s < number<T>(0.7), by_sines, by_cosines), zero);
-    const T z = sqrt(z2);
-    const T t = s * z / max_of(cap.cos_max, number<T>(1e-15));  // tan of half the chord's angle
-
+    const T s = cap.sin_max, m = min_of(T(abs(cap.cos_beta)), one);
     const T sin2_beta = cap.sin_beta * cap.sin_beta, one_minus_m = sin2_beta / (one + m);
-    const T half_chord = atan(t), t2 = t * t;
-    const T widening = atan(t * one_minus_m / max_of(T(m + t2), least));  // atan(t/m) − atan t
+    const T sz = s * sqrt(z2), t = sz / max_of(cap.cos_max, number<T>(1e-15)), t2 = t * t;
+    const T atan_t = atan(t), w = atan(t * one_minus_m / max_of(T(m + t2), least));
 
-    const auto is_narrow = t <= number<T>(1.5) * m;
-    const T q = min_of(t, T(number<T>(1.5) * m)) / max_of(m, least), q2 = q * q;
+    const T widest = number<T>(1.5) * m;
+    const auto is_narrow = t <= widest;
+    const T q = min_of(t, widest) / max_of(m, least), q2 = q * q;
     const T integral = chord_integral<T>(select(is_narrow, q2, zero), min_of(t2, one));
-    const T narrow = z2 * t * q2 * integral;
+    const T narrow = q2 * integral;
 
     const T p = min_of(m, t) / max_of(t, least), p2 = p * p;  // 1/q
-    const T bow = number<T>(2.0 / 3) + p2 - p * (one + p2) * (half_chord + widening);
-    const T short_chord = z2 * t * (bow - t2 * integral) / max_of(sin2_beta, least);
+    const T bow = number<T>(2.0 / 3) + p2 - p * (one + p2) * (atan_t + w);
+    const T wide = (bow - t2 * integral) / max_of(sin2_beta, least);
 
-    const T long_chord = (one_minus_m * half_chord - m * widening -
-                          cap.cos_max * (s * z - cap.cos_max * m * (half_chord + widening))) /
-                         max_of(T(s * s), least);
-    return select(t > one, long_chord, select(is_narrow, narrow, short_chord));
+    const T high =
+        (one_minus_m * atan_t - m * w - cap.cos_max * (sz - cap.cos_max * m * (atan_t + w))) /
+        max_of(T(s * s), least);
+    return select(t > one, high, z2 * t * select(is_narrow, narrow, wide));
 }
 
 }  // namespace detail
@@ -104,7 +109,9 @@ template <class T> MIS_INLINE T sunken_irradiance_over_sin2(const TiltedCap<T>& 
 template <class T> MIS_INLINE T irradiance_over_sin2(const TiltedCap<T>& cap)
 {
     const T above = number<T>(pi<T>) * max_of(cap.cos_beta, number<T>(0));
-    return above + detail::sunken_irradiance_over_sin2(cap);
+    const T z2 = detail::chord2(cap);
+    if (!any_lane(z2 > number<T>(0))) return above;
+    return above + detail::sunken_irradiance_over_sin2(cap, z2);
 }
 
 }  // namespace mis
