@@ -1,6 +1,7 @@
 // Every instruction set and number type: the same samples, but for rounding.
 #include "mis/engine/kernels.h"
 
+#include "mis/engine/light_columns.h"
 #include "mis/sampling/random.h"
 
 #include "tests/engine/bench.h"
@@ -98,7 +99,8 @@ struct LowLights {
                 if (c >= 1) continue;
                 lights.push_back(make_light({2 * std::sqrt(1 - c * c), 2 * c, 0}, 2 * s,
                                             Vec3<double>(1 / (s * s))));
-                weight.push_back(exact_irradiance_over_sin2(s, c));
+                const double brightness = luminance_radius(lights.back());  // a float
+                weight.push_back(brightness * s / 2 * exact_irradiance_over_sin2(s, c));
                 // Near tangency more than 1e-5: places are floats.
                 tolerance.push_back(2.5 * 4 / ((1 + height) * std::sqrt(1 - s * s)));
             }
@@ -111,7 +113,9 @@ std::vector<T> probabilities_of(std::string_view policy, const TestScene& test,
 {
     const Strategy strategy = parse_strategy(std::string(policy) + "/light");
     const ReadyStrategy<T> ready(test.lit, strategy, kernels, 1);
-    const TileJob<T> job = ready.job(test.probes.tiles.at(0), test.probes.points);
+    TileJob<T> job = ready.job(test.probes.tiles.at(0), test.probes.points);
+    std::vector<T> storage;
+    job.columns = fill_light_columns(test.scene.lights, job.origin, storage);
     const auto stages = *std::find_if(kernels.policies.begin(), kernels.policies.end(),
                                       [&](const auto& p) { return p.name == policy; });
     const std::size_t count = test.scene.lights.size();
