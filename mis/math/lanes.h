@@ -59,6 +59,15 @@ template <class T> MIS_INLINE T select(bool condition, const T& a, const T& b)
 {
     return condition ? a : b;
 }
+/// Does a condition hold in any lane? To leave out what no lane needs.
+MIS_INLINE bool any_lane(bool condition) { return condition; }
+#if !defined(MIS_WITHOUT_LANES)
+template <class T, class A> MIS_INLINE bool any_lane(const xsimd::batch_bool<T, A>& condition)
+{
+    return xsimd::any(condition);
+}
+#endif
+
 /// The larger and the smaller number, lane by lane. A NaN in `a` gives b: a bound also cleans.
 template <class T> MIS_INLINE T max_of(const T& a, const T& b) { return select(a > b, a, b); }
 template <class T> MIS_INLINE T min_of(const T& a, const T& b) { return select(a < b, a, b); }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/math/cap.h"
+#include "mis/math/irradiance.h"
 #include "mis/sampling/discrete.h"
 #include "mis/scene/light.h"
 
@@ -105,6 +105,15 @@ template <class T> struct SeenLight {
         const T cos_max =
             sqrt(max_of((distance - radius) * (distance + radius), number<T>(0))) / distance;
         return radius / distance / (number<T>(1) + cos_max);
+    }
+
+    /// Its cap over the surface of normal n. A point that rounding puts into the light is on it.
+    MIS_INLINE TiltedCap<T> tilted_cap(const Vec3<T>& n) const
+    {
+        using std::sqrt;
+        const T d = max_of(distance, radius);
+        return {radius / d, sqrt((d - radius) * (d + radius)) / d, dot(n, to_center) / d,
+                length(cross(n, to_center)) / d};
     }
 };
 

@@ -1,9 +1,11 @@
 // Every instruction set and number type: the same samples, but for rounding.
 #include "mis/engine/kernels.h"
 
+#include "mis/engine/light_columns.h"
 #include "mis/sampling/random.h"
 
 #include "tests/engine/bench.h"
+#include "tests/support/irradiance.h"
 #include "tests/support/statistics.h"
 
 #include <gtest/gtest.h>
@@ -80,6 +82,75 @@ TEST(InstructionSets, AgreeWithDoubleInFloat)
 {
     for (const char* type : {"lambert", "lecture", "blinn", "ggx"})
         expect_agreement<float>(type, 2e-4);
+}
+
+/// A light of each of some sizes and heights over the horizon, at distance 2 from
+/// point_facing_up(): of such radiance that Y(L)·E is E/sin²θ_max.
+struct LowLights {
+    Lights lights;
+    std::vector<double> weight, tolerance;
+
+    /// smallest: below 1e-4 a float cannot tell how high a light is over the horizon.
+    explicit LowLights(double smallest)
+    {
+        for (const double s : {smallest, 1e-4, 0.01, 0.1, 0.5, 0.7, 0.9, 0.99})
+            for (const double height : {2.0, 0.9, 0.4, 0.0, -0.3, -0.7, -0.95}) {
+                const double c = height * s;
+                if (c >= 1) continue;
+                lights.push_back(make_light({2 * std::sqrt(1 - c * c), 2 * c, 0}, 2 * s,
+                                            Vec3<double>(1 / (s * s))));
+                const double brightness = luminance_radius(lights.back());  // a float
+                weight.push_back(brightness * s / 2 * exact_irradiance_over_sin2(s, c));
+                // Near tangency more than 1e-5: places are floats.
+                tolerance.push_back(2.5 * 4 / ((1 + height) * std::sqrt(1 - s * s)));
+            }
+    }
+};
+
+template <class T>
+std::vector<T> probabilities_of(std::string_view policy, const TestScene& test,
+                                const Kernels<T>& kernels)
+{
+    const Strategy strategy = parse_strategy(std::string(policy) + "/light");
+    const ReadyStrategy<T> ready(test.lit, strategy, kernels, 1);
+    TileJob<T> job = ready.job(test.probes.tiles.at(0), test.probes.points);
+    std::vector<T> storage;
+    job.columns = fill_light_columns(test.scene.lights, job.origin, storage);
+    const auto stages = *std::find_if(kernels.policies.begin(), kernels.policies.end(),
+                                      [&](const auto& p) { return p.name == policy; });
+    const std::size_t count = test.scene.lights.size();
+    Scratch scratch(stages.table_bytes(count) + 64);
+    const auto batch = std::make_unique<Batch<T>>();
+    batch->points = 1, batch->tile_point = {0}, batch->rows = static_cast<int>(count);
+    for (std::size_t i = 0; i < count; ++i)
+        batch->point[i] = 0, batch->light[i] = static_cast<LightIndex>(i);
+    stages.prepare(job, *batch, 0, scratch);
+    stages.probability(job, *batch);
+    return std::vector<T>(batch->probability.begin(),
+                          batch->probability.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+template <class T> void expect_irradiances(const Kernels<T>& kernels)
+{
+    const LowLights low(std::is_same_v<T, float> ? 1e-3 : 1e-8);
+    const TestScene test(probe_under(low.lights, grey_floor()));
+    const std::vector<T> found = probabilities_of<T>("irradiance", test, kernels);
+    double total = 0;
+    for (const double w : low.weight) total += w;
+    const double ulp = static_cast<double>(std::numeric_limits<T>::epsilon());
+    for (std::size_t j = 0; j < found.size(); ++j)
+        EXPECT_NEAR(static_cast<double>(found[j]) * total / low.weight[j], 1,
+                    (std::is_same_v<T, float> ? 1e-5 : 1e-11) + ulp * low.tolerance[j])
+            << j;
+}
+
+TEST(InstructionSets, WeighLightsCutByTheHorizonByTheirIrradiance)
+{
+    for (const std::string_view set : instruction_sets()) {
+        SCOPED_TRACE(set);
+        expect_irradiances(kernels_of<float>(set));
+        expect_irradiances(kernels_of<double>(set));
+    }
 }
 
 /// What `mis replay` and any other part of the work recompute: seed, point, sample, draw and block

@@ -148,6 +148,26 @@ TYPED_TEST(EveryPolicy, ARadiusOf1e20IsALightLikeAnyOther)
         EXPECT_NEAR(in_float.probability(j), in_double.probability(j), 1e-6);
 }
 
+/// However little of it is above the horizon: rounding must not put it below.
+TYPED_TEST(EveryPolicy, ALightWhoseRimIsAboveTheHorizonHasAProbability)
+{
+    const auto expect_drawn = [&]<class T>(T) {
+        for (const double s : {1e-20, 1e-8, 1e-4, 0.1, 0.5, 0.9, 0.999})
+            for (const double share : {1.0, 0.1, 1e-3, 1e-6, 1e-9, 1e-12})
+                for (const double away : {0.0, 1e3}) {
+                    const Lights lights{low_light(x, s, share * s)};
+                    const Vec3<double> origin(away, -away, away);
+                    const Prepared<TypeParam, T> table(lights, x, up, origin);
+                    EXPECT_NEAR(table.sum(), 1, rounding) << s << " " << share << " " << away;
+                    EXPECT_EQ(table.choose(5).light, 0);
+                }
+    };
+    expect_drawn(0.F);
+    expect_drawn(0.0);
+    expect_drawn(TestLanes<float>(0.F));
+    expect_drawn(TestLanes<double>(0.0));
+}
+
 TYPED_TEST(EveryPolicy, FloatAndLanesAgreeWithDouble)
 {
     const Lights lights = thirty_lights_one_dark();
@@ -168,11 +188,17 @@ TYPED_TEST(EveryPolicy, FloatAndLanesAgreeWithDouble)
 TYPED_TEST(EveryPolicy, AnyNumberOfLightsFillsTheLanes)
 {
     const Lights all = thirty_lights_one_dark();
+    double sums = 0;
     for (std::size_t count = 1; count <= 19; ++count) {
         const Lights lights(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
-        EXPECT_NEAR((Prepared<TypeParam, TestLanes<float>>(lights, x, up).sum()), 1, rounding)
+        const double one_by_one = Prepared<TypeParam, float>(lights, x, up).sum();
+        EXPECT_NEAR((Prepared<TypeParam, TestLanes<float>>(lights, x, up).sum()), one_by_one,
+                    rounding)
             << count;
+        EXPECT_NEAR(one_by_one, one_by_one > 0 ? 1 : 0, rounding);
+        sums += one_by_one;
     }
+    EXPECT_GT(sums, 9);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "mis/math/lanes.h"
 #include "mis/policy/light_choice.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace mis {
@@ -13,9 +14,16 @@ template <class P, class T = double> class Prepared {
 public:
     using S = Scalar<T>;
     Prepared(const Lights& lights, const Vec3<double>& x, const Vec3<double>& n)
-        : policy_(lights), columns_(fill_light_columns(lights, x, storage_)),
+        : Prepared(lights, x, n, x)
+    {
+    }
+    /// origin: of the lights' columns.
+    Prepared(const Lights& lights, const Vec3<double>& x, const Vec3<double>& n,
+             const Vec3<double>& origin)
+        : policy_(lights), columns_(fill_light_columns(lights, origin, storage_)),
           scratch_(P::table_bytes(lights.size()) + 64),
-          table_(policy_.template prepare<T>({Vec3<S>(S(0)), vec_cast<S>(n)}, columns_, scratch_)),
+          table_(policy_.template prepare<T>({vec_cast<S>(x - origin), vec_cast<S>(n)}, columns_,
+                                             scratch_)),
           count_(lights.size())
     {
     }
@@ -45,5 +53,14 @@ private:
                                          scratch_)) table_;
     std::size_t count_;
 };
+
+/// A light at distance 2 in the +x direction whose rim is `rise` (of sines) above the horizon of a
+/// point x with normal +y; sin_max is the sine of its half-angle.
+inline Light low_light(const Vec3<double>& x, double sin_max, double rise)
+{
+    const double c = rise - sin_max;
+    return make_light_of_power(x + Vec3<double>(2 * std::sqrt(1 - c * c), 2 * c, 0), 2 * sin_max,
+                               Vec3<double>(1));
+}
 
 }  // namespace mis

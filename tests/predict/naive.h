@@ -4,6 +4,8 @@
 #include "mis/math/frame.h"
 #include "mis/predict/predict.h"
 
+#include "tests/support/irradiance.h"
+
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -42,6 +44,11 @@ public:
             if (s_.policy == "power") weight = y * light.radius * light.radius;
             if (s_.policy == "solid-angle") weight = solid;
             if (s_.policy == "radiant-solid-angle") weight = y * solid;
+            if (s_.policy == "irradiance") {
+                const double s = light.radius / d;
+                const double c = dot(probe.normal, light.center - probe.position) / d;
+                weight = y * s * s * exact_irradiance_over_sin2(s, c);
+            }
             probability_.push_back(weight);
             sum += weight;
         }
