@@ -31,6 +31,19 @@ struct CompareOptions {
 };
 int run_compare(const CompareOptions& options);
 
+struct CostCommandOptions {
+    std::string scene;
+    std::string policies, heuristics, techniques, models,
+        strategies;          ///< lists; empty: the default
+    std::string precisions;  ///< float, double; empty: float, and the best one in double
+    RunOptions run;
+    StopOptions stop;
+    OutputOptions output;
+};
+/// Error against time of every strategy, measured by doubling its samples. Returns `interrupted`
+/// after Ctrl-C, with what there is. Throws as all do.
+int run_cost(const CostCommandOptions& options);
+
 struct ExplainOptions {
     std::string scene;
     RunOptions run;

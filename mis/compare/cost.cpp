@@ -39,11 +39,9 @@ std::vector<double> seconds_of(std::span<const TimeObservation> times, double sa
 
 CostPoint point_of(const CostLevel& level, const SquaredError& error, const CostGround& ground)
 {
-    const std::vector<double> seconds =
-        seconds_of(level.times, static_cast<double>(level.samples));
     return {.samples = level.samples,
             .error = error_interval(error),
-            .seconds = scaled(interval_of_median(seconds), static_cast<double>(ground.points) /
+            .seconds = scaled(interval_of_median(level.seconds), static_cast<double>(ground.points) /
                                                                ground.threads),
             .trust = error.trust};
 }
@@ -116,16 +114,17 @@ SquaredError squared_error(const CostLevel& level, const ReferenceError& referen
 
 CostModel model_of(const CostMeasurements& curve, const CostGround& ground)
 {
-    const std::vector<const CostLevel*> trusted = trusted_levels(curve.levels, ground.reference);
-    CostModel model{.log_variance = fitted_variance(trusted, ground.reference),
+    const std::vector<const CostLevel*> fitted = fitted_levels(curve.levels, ground.reference);
+    CostModel model{.log_variance = fitted_variance(fitted, ground.reference),
                     .times = {},
                     .points_per_thread = static_cast<double>(ground.points) / ground.threads,
                     .least_error = std::numeric_limits<double>::infinity()};
-    for (const CostLevel* level : trusted)
+    for (const CostLevel* level : fitted)
         model.least_error = std::min(model.least_error,
                                      std::sqrt(squared_error(*level, ground.reference).value));
-    for (const CostLevel& level : curve.levels)
-        model.times.insert(model.times.end(), level.times.begin(), level.times.end());
+    if (!curve.levels.empty())
+        for (std::size_t r = 0; r < curve.levels[0].seconds.size(); ++r)
+            model.times.push_back(fitted_time(curve.levels, r));
     return model;
 }
 
@@ -170,11 +169,11 @@ CostCurveReport curve_report(const CostMeasurements& curve, const CostGround& gr
         report.points.push_back(point_of(level, errors.back(), ground));
     }
     const CostModel model = model_of(curve, ground);
-    const std::vector<const CostLevel*> trusted = trusted_levels(curve.levels, ground.reference);
-    const LogEstimate slope = fitted_slope(trusted, ground.reference, Against::samples);
+    const std::vector<const CostLevel*> fitted = fitted_levels(curve.levels, ground.reference);
+    const LogEstimate slope = fitted_slope(fitted, ground.reference, Against::samples);
     report.slope = linear_interval(slope);
     report.slope_in_time =
-        linear_interval(fitted_slope(trusted, ground.reference, Against::seconds));
+        linear_interval(fitted_slope(fitted, ground.reference, Against::seconds));
     report.slope_p_value = two_sided_p(slope, -0.5);
     report.fits = !(report.slope_p_value < least_fit_p);
     if (!std::isnan(model.log_variance.value))

@@ -18,8 +18,8 @@ struct CostLevel {
     /// [replicate][region]: squared errors over μ² + ε²; over regions they sum to their mean over
     /// the shading points.
     RegionSums squared_errors;
-    Participation participation;         ///< of the squared errors, over points and replicates
-    std::vector<TimeObservation> times;  ///< [replicate]
+    Participation participation;  ///< of the squared errors, over points and replicates
+    std::vector<double> seconds;  ///< [replicate]: CPU time of a point, with its preparation
 };
 
 /// What the reference adds to a mean relative squared error.
@@ -58,10 +58,10 @@ SquaredError squared_error(const CostLevel& level, const ReferenceError& referen
 /// What extrapolation and crossings go by: error² = V/n, and n samples of a point take one
 /// preparation and n times a sample.
 struct CostModel {
-    LogEstimate log_variance;            ///< of V; NaN where nothing is trusted
-    std::vector<TimeObservation> times;  ///< of all levels and replicates
+    LogEstimate log_variance;            ///< of V; NaN where nothing can be fitted
+    std::vector<TimeObservation> times;  ///< [replicate]: fitted over the levels
     double points_per_thread = 1;
-    double least_error = 0;  ///< measured and trusted
+    double least_error = 0;  ///< that was fitted
 };
 CostModel model_of(const CostMeasurements& curve, const CostGround& ground);
 

@@ -21,16 +21,19 @@ bool takes_part(const CostModel& model)
     return !std::isnan(model.log_variance.value) && !model.times.empty();
 }
 
-/// From where all strategies need but one sample.
+/// The error of one sample.
+double first_error(const CostModel& model) { return std::exp(0.5 * model.log_variance.value); }
+
+/// From the largest that one sample of any makes, but not above 100 %: black has no larger one.
 std::vector<double> row_of_errors(std::span<const CostModel> models)
 {
     double largest = 0;
     for (const CostModel& model : models)
         if (takes_part(model))
-            largest = std::max(largest, std::exp(0.5 * model.log_variance.value));
+            largest = std::max(largest, first_error(model));
     std::vector<double> errors;
     const double step = std::pow(10.0, -1 / steps_per_decade);
-    for (double e = largest; e >= least_crossing_error; e *= step) errors.push_back(e);
+    for (double e = std::min(largest, 1.0); e >= least_crossing_error; e *= step) errors.push_back(e);
     return errors;
 }
 
@@ -77,9 +80,10 @@ void add_crossings(std::vector<CrossingReport>& found, std::span<const TimeRow> 
     std::vector<Stand> stands;
     for (std::size_t i = 0; i < errors.size(); ++i)
         stands.push_back(stand_of(rows[a].log_seconds[i], rows[b].log_seconds[i], tail));
+    const double first = std::min(first_error(*rows[a].model), first_error(*rows[b].model));
     std::optional<std::size_t> last;  // with a sure lead
     for (std::size_t i = 0; i < stands.size(); ++i) {
-        if (stands[i].lead == 0) continue;
+        if (stands[i].lead == 0 || errors[i] > first) continue;
         if (last && stands[*last].lead != stands[i].lead) {
             CrossingReport c = crossing(stands, errors, *last, i);
             const bool a_leads = stands[*last].lead < 0;

@@ -1,5 +1,6 @@
 #include "mis/compare/cost_fit.h"
 
+#include "mis/compare/resolved.h"
 #include "mis/math/moments.h"
 
 #include <cmath>
@@ -47,8 +48,7 @@ std::vector<Observed> observed(std::span<const CostLevel* const> levels)
         Observed o{.samples = static_cast<double>(level->samples), .squared_errors = {}, .seconds = {}};
         for (const std::vector<double>& replicate : level->squared_errors)
             o.squared_errors.push_back(std::accumulate(replicate.begin(), replicate.end(), 0.0));
-        for (const TimeObservation& time : level->times)
-            o.seconds.push_back(time.seconds_for(o.samples));
+        o.seconds = level->seconds;
         all.push_back(std::move(o));
     }
     return all;
@@ -78,13 +78,20 @@ struct Line {
 
 }  // namespace
 
-std::vector<const CostLevel*> trusted_levels(std::span<const CostLevel> levels,
-                                             const ReferenceError& reference)
+std::vector<const CostLevel*> fitted_levels(std::span<const CostLevel> levels,
+                                            const ReferenceError& reference)
 {
-    std::vector<const CostLevel*> trusted;
-    for (const CostLevel& level : levels)
-        if (squared_error(level, reference).trust == Trust::trusted) trusted.push_back(&level);
-    return trusted;
+    std::vector<const CostLevel*> fitted;
+    Participation all;
+    for (const CostLevel& level : levels) {
+        if (squared_error(level, reference).trust == Trust::below_reference) continue;
+        const double n = static_cast<double>(level.samples);
+        all.sum_d2 += n * level.participation.sum_d2;
+        all.sum_d4 += n * n * level.participation.sum_d4;
+        fitted.push_back(&level);
+    }
+    if (all.number() < least_participation) fitted.clear();
+    return fitted;
 }
 
 LogEstimate fitted_variance(std::span<const CostLevel* const> levels,
@@ -107,6 +114,24 @@ LogEstimate fitted_variance(std::span<const CostLevel* const> levels,
     if (!(value > 0)) return {nan, nan, 1};
     const double se = std::hypot(std::exp(raw.value) * raw.se, mean_samples * reference.se);
     return {std::log(value), se / value, raw.dof};
+}
+
+TimeObservation fitted_time(std::span<const CostLevel> levels, std::size_t replicate)
+{
+    // Σ ((a + b n)/y − 1)² is least; with u = 1/y, v = n/y.
+    double uu = 0, uv = 0, vv = 0, u = 0, v = 0;
+    for (const CostLevel& level : levels) {
+        const double y = level.seconds[replicate];
+        if (!(y > 0)) continue;  // a coarse clock
+        const double n = static_cast<double>(level.samples);
+        uu += 1 / (y * y), uv += n / (y * y), vv += n * n / (y * y), u += 1 / y, v += n / y;
+    }
+    if (!(vv > 0)) return {};
+    const double determinant = uu * vv - uv * uv;
+    const double shared = determinant > 1e-9 * uu * vv ? (u * vv - v * uv) / determinant : 0;
+    if (!(shared > 0)) return {v / vv, 0};
+    const double per_sample = (uu * v - uv * u) / determinant;
+    return per_sample > 0 ? TimeObservation{per_sample, shared} : TimeObservation{0, u / uu};
 }
 
 LogEstimate fitted_slope(std::span<const CostLevel* const> levels, const ReferenceError& reference,

@@ -7,8 +7,10 @@
 
 namespace mis {
 
-/// The levels whose errors are trusted, by samples.
-std::vector<const CostLevel*> trusted_levels(std::span<const CostLevel> levels,
+/// The levels that lines are fitted to, by samples: all but those below the reference, so that none
+/// is left out for an outlier that it met; none where fewer than `least_participation` squared
+/// errors carry samples · error² of all of them together.
+std::vector<const CostLevel*> fitted_levels(std::span<const CostLevel> levels,
                                              const ReferenceError& reference);
 
 /// Logarithm of V in error² = V/n: the mean of samples · error² over the levels, each counted
@@ -16,6 +18,11 @@ std::vector<const CostLevel*> trusted_levels(std::span<const CostLevel> levels,
 /// is not above 0.
 LogEstimate fitted_variance(std::span<const CostLevel* const> levels,
                             const ReferenceError& reference);
+
+/// Seconds of a point that a replicate's levels share, and seconds per sample: least squares of the
+/// relative deviations. What is shared is its preparation and whatever else a point takes once; of
+/// one level, 0. Precondition: at least one level.
+TimeObservation fitted_time(std::span<const CostLevel> levels, std::size_t replicate);
 
 /// What an error is drawn against.
 enum class Against { samples, seconds };

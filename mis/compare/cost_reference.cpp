@@ -1,6 +1,7 @@
 #include "mis/compare/cost_reference.h"
 
 #include "mis/predict/predict.h"
+#include "mis/strategy/names.h"
 
 #include <algorithm>
 #include <chrono>
@@ -55,13 +56,25 @@ struct Source {
     }
 };
 
+/// Beyond so many lights, drawing all of them is no longer worth while.
+constexpr std::size_t most_lights_to_draw = 16;
+constexpr int check_share = 8;  ///< the best gets so many times the samples of those that check it
+
 std::vector<Strategy> sources_for(const StudyGround& ground)
 {
-    const double pairs = static_cast<double>(ground.scene.scene().lights.size()) *
-                         static_cast<double>(ground.points.figure_lit);
+    const std::size_t lights = ground.scene.scene().lights.size();
+    const double pairs =
+        static_cast<double>(lights) * static_cast<double>(ground.points.figure_lit);
     std::vector<Strategy> sources{parse_strategy("power/power")};
     if (pairs < 1e8) sources.push_back(parse_strategy("radiant-solid-angle/power"));
+    if (lights <= most_lights_to_draw) sources.push_back(parse_strategy("all/power"));
     return sources;
+}
+
+/// Draws per sample: what a sample costs, the same on every machine.
+double draws_of(const Strategy& strategy, std::size_t lights)
+{
+    return 1 + (draws_every_light(strategy.policy) ? static_cast<double>(lights) : 1);
 }
 
 std::vector<double> pooled_means(std::span<const Source> sources, std::size_t points)
@@ -70,6 +83,18 @@ std::vector<double> pooled_means(std::span<const Source> sources, std::size_t po
     for (std::size_t p = 0; p < points; ++p)
         for (const Source& source : sources) means[p] += source.weight * source.mean(p);
     return means;
+}
+
+/// The source with the least variance for its draws comes first.
+void put_best_first(std::span<Source> sources, std::size_t lights)
+{
+    const auto cost = [&](const Source& source) {
+        return source.relative_variance * draws_of(source.run.strategy(), lights);
+    };
+    const auto best = std::min_element(
+        sources.begin(), sources.end(),
+        [&](const Source& a, const Source& b) { return cost(a) < cost(b); });
+    std::iter_swap(sources.begin(), best);
 }
 
 /// Weights by precision, from the relative variances against equally weighed means.
@@ -90,17 +115,18 @@ void weigh(const StudyGround& ground, std::span<Source> sources)
     for (Source& source : sources) source.weight /= sum;
 }
 
-/// The variance of the pooled means; where the two sources differ by more than theirs, that counts
-/// below what nothing is trusted.
+/// The variance of the pooled means; where the first two sources differ by more than theirs, that
+/// counts in what errors are not trusted below.
 ReferenceError error_of(const StudyGround& ground, std::span<const Source> sources,
                         const std::vector<double>& squares, bool& agrees)
 {
     double sum = 0, sum2 = 0, difference = 0, noise = 0, noise2 = 0;
     for (std::size_t p = 0; p < ground.points.figure_lit; ++p) {
         double pooled = 0, both = 0;
-        for (const Source& source : sources) {
-            pooled += source.weight * source.weight * relative(source.variance(p), squares[p]);
-            both += relative(source.variance(p), squares[p]);
+        for (std::size_t s = 0; s < sources.size(); ++s) {
+            const double variance = relative(sources[s].variance(p), squares[p]);
+            pooled += sources[s].weight * sources[s].weight * variance;
+            both += s < 2 ? variance : 0;
         }
         sum += pooled, sum2 += pooled * pooled;
         noise += both, noise2 += both * both;
@@ -128,9 +154,9 @@ CostReference finished(const StudyGround& ground, std::span<const Source> source
     reference.report.error = std::sqrt(reference.error.floor);
     for (const Source& source : sources) {
         reference.report.sources.push_back(name_of(source.run.strategy()));
-        if (!source.run.results().empty())
-            reference.report.samples = source.run.results()[0].luminance.count;
     }
+    if (!sources[0].run.results().empty())
+        reference.report.samples = sources[0].run.results()[0].luminance.count;
     return reference;
 }
 
@@ -178,10 +204,13 @@ CostReference pooled_reference(const StudyGround& ground, const ReferenceLimit& 
         if (limit.samples > 0 && limit.samples - taken < static_cast<std::uint64_t>(count))
             count = static_cast<int>(limit.samples - taken);
         const Clock::time_point round = Clock::now();
-        for (Source& source : sources)
-            source.run.sample_apart(count, ground.workspaces, ground.executor);
-        taken += static_cast<std::uint64_t>(count);
+        for (std::size_t s = 0; s < sources.size(); ++s) {
+            const int own = s == 0 || taken == 0 ? count : std::max(1, count / check_share);
+            sources[s].run.sample_apart(own, ground.workspaces, ground.executor);
+        }
         weigh(ground, sources);
+        if (taken == 0) put_best_first(sources, ground.scene.scene().lights.size());
+        taken += static_cast<std::uint64_t>(count);
         if (ground.is_stopped() || taken == limit.samples) break;
         if (limit.samples > 0) continue;
         const double next = seconds_since(round) * std::min(2 * count, 4096) / count;

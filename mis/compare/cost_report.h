@@ -66,7 +66,7 @@ struct CrossingReport {
 struct ReferenceReport {
     bool exact = false;                ///< from quadrature (`predict`)
     std::vector<std::string> sources;  ///< names of the strategies it is pooled from
-    std::uint64_t samples = 0;         ///< per shading point, of each; 0 where exact
+    std::uint64_t samples = 0;         ///< per shading point, of the first source; 0 where exact
     double error = 0;  ///< root of its mean relative squared error; exact: a bound of it
     bool agrees = true;  ///< its sources differ by no more than their noise
 };

@@ -17,11 +17,6 @@ struct TileErrors {
     TileTotals cost;
 };
 
-double prepare_seconds(const TileTotals& t)
-{
-    return t.stage_seconds[static_cast<std::size_t>(StageKind::prepare)];
-}
-
 template <class T> class SamplerOf final : public CostSampler {
 public:
     SamplerOf(const StudyGround& ground, const CostPoints& points, const CostReference& reference,
@@ -48,8 +43,7 @@ public:
             sum.participation.sum_d4 += tiles[t].participation.sum_d4;
             cost.add(tiles[t].cost);
         }
-        const double prepare = prepare_seconds(cost), n = static_cast<double>(cost.samples);
-        sum.time = {(cost.seconds - prepare) / n, prepare / static_cast<double>(study.figure_lit)};
+        sum.seconds = cost.seconds / static_cast<double>(study.figure_lit);
         sum.invalid = cost.invalid;
         return sum;
     }

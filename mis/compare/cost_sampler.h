@@ -19,7 +19,7 @@ CostPoints cost_points(const StudyPoints& points, bool has_camera);
 struct CostReplicate {
     std::vector<double> squared_errors;  ///< [region]; CostLevel
     Participation participation;
-    TimeObservation time;
+    double seconds = 0;  ///< CPU time of a point, with its preparation
     std::uint64_t invalid = 0;
 };
 

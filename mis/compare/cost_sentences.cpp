@@ -76,7 +76,10 @@ void add_doubts(std::vector<std::string>& sentences, const CostCurveReport& curv
     if (rare > 0)
         sentences.push_back(name + ": at " + count(double(rare)) + " of " +
                             count(double(curve.points.size())) +
-                            " points a few rare samples carry the error; they are not trusted.");
+                            " points few rare samples carry the error (~)" +
+                            (std::isnan(curve.relative_variance.value)
+                                 ? "; and over all of them, so nothing is fitted."
+                                 : "."));
     if (trusted < curve.points.size() - rare)
         sentences.push_back(name + ": " + count(double(curve.points.size() - rare - trusted)) +
                             " of " + count(double(curve.points.size())) +

@@ -22,6 +22,7 @@ constexpr double reference_share = 0.3;    // of the time, at most
 constexpr std::uint64_t reference_factor = 64;  // its samples over the last doubling's, with --spp
 constexpr std::size_t least_levels = 5, levels_before_twins = 3;
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 24;
+constexpr std::uint64_t apart = std::uint64_t{1} << 20;  // a stream that no replicate has
 
 double seconds_since(Clock::time_point start)
 {
@@ -118,12 +119,11 @@ private:
             const std::uint64_t stream = level_ * replicates + static_cast<std::uint64_t>(r);
             for (const std::size_t c : round_order(curves_.size(), options_.seed,
                                                    static_cast<std::uint32_t>(stream))) {
-                if (curves_[c].is_done) continue;
                 if (ground_.is_stopped()) return;
+                if (curves_[c].is_done || !is_ready(curves_[c])) continue;
                 const Clock::time_point start = Clock::now();
                 add_replicate(levels[c], curves_[c], samples, stream);
                 seconds[c] += seconds_since(start);
-                if (r == 0 && level_ == 0 && is_too_slow(seconds[c])) give_up(curves_[c], seconds[c]);
                 show(1 - seconds_left() / options_.seconds,
                      std::to_string(samples) + " samples per point");
             }
@@ -138,30 +138,31 @@ private:
         for (Curve& curve : curves_) end_if_done(curve, samples);
     }
 
+    /// Makes the curve's sampler. The first touch of memory is no cost of the strategy, so one sample
+    /// counts for nothing. False where there is no time for replicates of such samples.
+    bool is_ready(Curve& curve)
+    {
+        if (curve.sampler) return true;
+        const CostMeasurements& m = curve.measured;
+        const Clock::time_point start = Clock::now();
+        curve.sampler = make_sampler(ground_, judged_, reference_, m.strategy, m.precision);
+        curve.sampler->run(1, apart);
+        const double seconds = seconds_since(start);
+        if (options_.spp || seconds * replicates < seconds_left()) return true;
+        curve.is_done = true;
+        curve.measured.reason = "past the budget: one sample per point takes " +
+                                duration(seconds) + ", " + std::to_string(replicates) + " times";
+        return false;
+    }
+
     void add_replicate(CostLevel& level, Curve& curve, std::uint64_t samples, std::uint64_t stream)
     {
-        const CostMeasurements& m = curve.measured;
-        if (!curve.sampler)
-            curve.sampler = make_sampler(ground_, judged_, reference_, m.strategy, m.precision);
         CostReplicate replicate = curve.sampler->run(samples, stream);
         level.squared_errors.push_back(std::move(replicate.squared_errors));
         level.participation.sum_d2 += replicate.participation.sum_d2;
         level.participation.sum_d4 += replicate.participation.sum_d4;
-        level.times.push_back(replicate.time);
+        level.seconds.push_back(replicate.seconds);
         curve.measured.invalid_samples += replicate.invalid;
-    }
-
-    bool is_too_slow(double replicate_seconds) const
-    {
-        return !options_.spp && replicate_seconds * replicates > seconds_left();
-    }
-
-    static void give_up(Curve& curve, double replicate_seconds)
-    {
-        curve.is_done = true;
-        curve.measured.reason = "past the budget: one sample per point takes " +
-                                duration(replicate_seconds) + ", " + std::to_string(replicates) +
-                                " times";
     }
 
     void end_if_done(Curve& curve, std::uint64_t samples)
@@ -173,7 +174,7 @@ private:
         }
         const double active = static_cast<double>(std::count_if(
             curves_.begin(), curves_.end(), [](const Curve& c) { return !c.is_done; }));
-        const bool fits = 2 * curve.level_seconds <= seconds_left() / active;
+        const bool fits = 2 * curve.level_seconds <= 0.9 * seconds_left() / active;
         curve.is_done = !fits || 2 * samples > most_samples || tells_no_more(curve.measured);
     }
 
@@ -220,6 +221,7 @@ private:
                 return;
         add_curve(choice);
         Curve& curve = curves_.back();
+        if (!is_ready(curve)) return;
         for (std::size_t k = 0; k < level_; ++k) {
             CostLevel level;
             level.samples = std::uint64_t{1} << k;

@@ -1,9 +1,10 @@
 #include "mis/io/predict_json.h"
 
+#include "mis/io/csv_parts.h"
+#include "mis/io/json_parts.h"
 #include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace mis {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 struct Figure {
     const char* name;
@@ -23,46 +24,28 @@ constexpr std::array figures{Figure{"mean", &Predicted::mean, &Predicted::mean_e
                              Figure{"variance", &Predicted::variance, &Predicted::variance_error},
                              Figure{"fourth", &Predicted::fourth, &Predicted::fourth_error}};
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
 Json probe_json(const PredictReport::Probe& probe, std::size_t strategy)
 {
     Json json;
     for (const auto& [name, value, error] : figures) {
         if (!probe.refusal.empty()) json[name] = {{"value", nullptr}, {"error", nullptr}};
         else
-            json[name] = {{"value", number(probe.figures[strategy].*value)},
-                          {"error", number(probe.figures[strategy].*error)}};
+            json[name] = {{"value", json_figure(probe.figures[strategy].*value)},
+                          {"error", json_figure(probe.figures[strategy].*error)}};
     }
-    json["refusal"] = text_or_null(probe.refusal);
+    json["refusal"] = json_text_or_null(probe.refusal);
     return json;
 }
 
 Json strategy_json(const PredictReport::Scene& scene, std::size_t i)
 {
     const Strategy& s = scene.strategies[i];
-    Json json{{"name", name_of(s)},
-              {"policy", text_or_null(s.policy)},
-              {"heuristic", text_or_null(s.heuristic)},
-              {"technique", s.technique},
-              {"model", s.model == Model::multi ? "multi" : "one-sample"},
-              {"counts", s.chooses_light() ? Json(s.counts) : Json{0, 1}},
-              {"probes", Json::array()}};
+    Json json = json_identity(s);
+    json["probes"] = Json::array();
     for (const PredictReport::Probe& probe : scene.probes)
         json["probes"].push_back(probe_json(probe, i));
     return json;
 }
-
-/// RFC 4180: quoted where needed, a quote doubled.
-std::string field(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + '"';
-}
-std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 /// Ten places at most.
 std::string shown(double value)
@@ -95,7 +78,7 @@ std::string predict_json(const PredictReport& report)
                                   {"lights", scene.lights},
                                   {"strategies", strategies}});
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 std::string predict_csv(const PredictReport& report)
@@ -107,13 +90,13 @@ std::string predict_csv(const PredictReport& report)
         for (std::size_t p = 0; p < scene.probes.size(); ++p)
             for (std::size_t i = 0; i < scene.strategies.size(); ++i) {
                 const PredictReport::Probe& probe = scene.probes[p];
-                csv += fmt::format("{},{},{},{}", field(scene.name), field(scene.file), p,
-                                   field(name_of(scene.strategies[i])));
+                csv += fmt::format("{},{},{},{}", csv_field(scene.name), csv_field(scene.file), p,
+                                   csv_field(name_of(scene.strategies[i])));
                 for (const auto& [name, value, error] : figures)
-                    csv += probe.refusal.empty() ? "," + field(probe.figures[i].*value) + "," +
-                                                       field(probe.figures[i].*error)
+                    csv += probe.refusal.empty() ? "," + csv_field(probe.figures[i].*value) + "," +
+                                                       csv_field(probe.figures[i].*error)
                                                  : std::string(",,");
-                csv += "," + field(probe.refusal) + "\r\n";
+                csv += "," + csv_field(probe.refusal) + "\r\n";
             }
     return csv;
 }

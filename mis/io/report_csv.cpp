@@ -1,26 +1,16 @@
 #include "mis/io/report_csv.h"
 
 #include "mis/io/atomic_file.h"
+#include "mis/io/csv_parts.h"
 #include "mis/io/report_json.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <vector>
 
 namespace mis {
 namespace {
 
-/// RFC 4180: quoted where needed, a quote doubled.
-std::string field(const std::string& text)
-{
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    return quoted + '"';
-}
-
-std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 std::string place(int rank) { return rank > 0 ? fmt::format("{}", rank) : ""; }
 
 struct Cell {
@@ -30,9 +20,9 @@ using Row = std::vector<Cell>;
 
 void add(Row& row, const std::string& column, const Interval& x)
 {
-    row.push_back({column, field(x.value)});
-    row.push_back({column + "_low", field(x.low)});
-    row.push_back({column + "_high", field(x.high)});
+    row.push_back({column, csv_field(x.value)});
+    row.push_back({column + "_low", csv_field(x.low)});
+    row.push_back({column + "_high", csv_field(x.high)});
 }
 
 std::string joined(const std::vector<std::string>& names)
@@ -44,42 +34,42 @@ Row row_of(const SceneReport& scene, const StrategyReport& s)
 {
     const Strategy& strategy = s.strategy;
     const bool light_alone = strategy.heuristic == "light";
-    Row row{{"scene", field(scene.name)},
-            {"file", field(scene.file)},
-            {"strategy", field(name_of(strategy))},
-            {"policy", field(strategy.policy)},
-            {"heuristic", field(strategy.heuristic)},
-            {"technique", field(strategy.technique)},
+    Row row{{"scene", csv_field(scene.name)},
+            {"file", csv_field(scene.file)},
+            {"strategy", csv_field(name_of(strategy))},
+            {"policy", csv_field(strategy.policy)},
+            {"heuristic", csv_field(strategy.heuristic)},
+            {"technique", csv_field(strategy.technique)},
             {"model", strategy.model == Model::multi ? "multi" : "one-sample"},
             {"light_draws", fmt::format("{}", strategy.chooses_light() ? strategy.counts[0] : 0)},
             {"bsdf_draws", fmt::format("{}", !strategy.chooses_light() ? 1
                                              : light_alone             ? 0
                                                                        : strategy.counts[1])},
             {"status", name_of(s.status)},
-            {"reason", field(s.reason)},
+            {"reason", csv_field(s.reason)},
             {"exact", s.exact ? "true" : "false"},
             {"rank", place(s.rank)},
             {"rank_low", place(s.rank_low)},
             {"rank_high", place(s.rank_high)},
-            {"tied_with", field(joined(s.tied_with))},
+            {"tied_with", csv_field(joined(s.tied_with))},
             {"rank_by_efficiency", place(s.rank_by_efficiency)},
             {"rank_by_efficiency_low", place(s.rank_by_efficiency_low)},
             {"rank_by_efficiency_high", place(s.rank_by_efficiency_high)},
             {"samples", fmt::format("{}", s.samples)},
-            {"mean", field(s.mean)},
-            {"mean_se", field(s.mean_se)},
-            {"bias_p_value", field(s.bias_p_value)}};
+            {"mean", csv_field(s.mean)},
+            {"mean_se", csv_field(s.mean_se)},
+            {"bias_p_value", csv_field(s.bias_p_value)}};
     add(row, "variance", s.variance);
     add(row, "relative_variance", s.relative_variance);
-    row.push_back({"rare_share", field(s.rare_share)});
-    row.push_back({"effective_samples", field(s.effective_samples)});
+    row.push_back({"rare_share", csv_field(s.rare_share)});
+    row.push_back({"effective_samples", csv_field(s.effective_samples)});
     add(row, "seconds_per_point", s.seconds_per_point);
     add(row, "seconds_per_sample", s.seconds_per_sample);
-    row.push_back({"rays_per_sample", field(s.rays_per_sample)});
+    row.push_back({"rays_per_sample", csv_field(s.rays_per_sample)});
     add(row, "efficiency", s.efficiency);
     add(row, "seconds_to_1_percent", s.seconds_to_1_percent);
     row.push_back(
-        {"estimated_seconds", s.status == Status::not_run ? field(s.estimated_seconds) : ""});
+        {"estimated_seconds", s.status == Status::not_run ? csv_field(s.estimated_seconds) : ""});
     row.push_back({"invalid_samples", fmt::format("{}", s.invalid_samples)});
     return row;
 }

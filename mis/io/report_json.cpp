@@ -2,50 +2,28 @@
 
 #include "mis/compare/sentences.h"
 #include "mis/io/atomic_file.h"
+#include "mis/io/json_parts.h"
 
-#include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace mis {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
-Json figure(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json place(int rank) { return rank > 0 ? Json(rank) : Json(nullptr); }
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
-
-Json interval(const Interval& x)
-{
-    return {{"value", figure(x.value)}, {"low", figure(x.low)}, {"high", figure(x.high)}};
-}
 
 Json probe(const PointFigures& p)
 {
-    return {{"mean", figure(p.mean)},
-            {"mean_se", figure(p.mean_se)},
-            {"variance", interval(p.variance)}};
-}
-
-/// What it is, as data; "counts" are draws per sample, light and BSDF.
-Json identity(const Strategy& s)
-{
-    return {{"name", name_of(s)},
-            {"policy", text_or_null(s.policy)},
-            {"heuristic", text_or_null(s.heuristic)},
-            {"technique", s.technique},
-            {"model", s.model == Model::multi ? "multi" : "one-sample"},
-            {"counts", s.chooses_light()
-                           ? s.heuristic == "light" ? Json{s.counts[0], 0} : Json(s.counts)
-                           : Json{0, 1}}};
+    return {{"mean", json_figure(p.mean)},
+            {"mean_se", json_figure(p.mean_se)},
+            {"variance", json_interval(p.variance)}};
 }
 
 Json strategy(const StrategyReport& s)
 {
-    Json json = identity(s.strategy);
+    Json json = json_identity(s.strategy);
     json["status"] = name_of(s.status);
-    json["reason"] = text_or_null(s.reason);
+    json["reason"] = json_text_or_null(s.reason);
     json["exact"] = s.exact;
     json["rank"] = place(s.rank);
     json["rank_low"] = place(s.rank_low);
@@ -55,24 +33,24 @@ Json strategy(const StrategyReport& s)
     json["rank_by_efficiency_low"] = place(s.rank_by_efficiency_low);
     json["rank_by_efficiency_high"] = place(s.rank_by_efficiency_high);
     json["samples"] = s.samples;
-    json["mean"] = figure(s.mean);
-    json["mean_se"] = figure(s.mean_se);
-    json["bias_p_value"] = figure(s.bias_p_value);
-    json["variance"] = interval(s.variance);
-    json["relative_variance"] = interval(s.relative_variance);
-    json["rare_share"] = figure(s.rare_share);
-    json["effective_samples"] = figure(s.effective_samples);
-    json["seconds_per_point"] = interval(s.seconds_per_point);
-    json["seconds_per_sample"] = interval(s.seconds_per_sample);
+    json["mean"] = json_figure(s.mean);
+    json["mean_se"] = json_figure(s.mean_se);
+    json["bias_p_value"] = json_figure(s.bias_p_value);
+    json["variance"] = json_interval(s.variance);
+    json["relative_variance"] = json_interval(s.relative_variance);
+    json["rare_share"] = json_figure(s.rare_share);
+    json["effective_samples"] = json_figure(s.effective_samples);
+    json["seconds_per_point"] = json_interval(s.seconds_per_point);
+    json["seconds_per_sample"] = json_interval(s.seconds_per_sample);
     json["stage_seconds"] = Json::object();
     for (const auto& [stage, seconds] : s.stage_seconds)
-        json["stage_seconds"][stage] = figure(seconds);
-    json["rays_per_sample"] = figure(s.rays_per_sample);
-    json["efficiency"] = interval(s.efficiency);
-    json["seconds_to_1_percent"] = figure(s.seconds_to_1_percent.value);
-    json["seconds_to_1_percent_interval"] = interval(s.seconds_to_1_percent);
+        json["stage_seconds"][stage] = json_figure(seconds);
+    json["rays_per_sample"] = json_figure(s.rays_per_sample);
+    json["efficiency"] = json_interval(s.efficiency);
+    json["seconds_to_1_percent"] = json_figure(s.seconds_to_1_percent.value);
+    json["seconds_to_1_percent_interval"] = json_interval(s.seconds_to_1_percent);
     json["estimated_seconds"] =
-        s.status == Status::not_run ? figure(s.estimated_seconds) : Json(nullptr);
+        s.status == Status::not_run ? json_figure(s.estimated_seconds) : Json(nullptr);
     json["invalid_samples"] = s.invalid_samples;
     json["probes"] = Json::array();
     for (const PointFigures& p : s.probes) json["probes"].push_back(probe(p));
@@ -83,22 +61,22 @@ Json pair(const PairReport& p, const SceneReport& scene)
 {
     return {{"a", name_of(scene.strategies[p.a].strategy)},
             {"b", name_of(scene.strategies[p.b].strategy)},
-            {"variance_ratio", interval(p.ratio)},
+            {"variance_ratio", json_interval(p.ratio)},
             {"verdict", name_of(p.verdict)},
-            {"more_replicates", figure(p.more_replicates)},
-            {"efficiency_ratio", interval(p.efficiency_ratio)},
+            {"more_replicates", json_figure(p.more_replicates)},
+            {"efficiency_ratio", json_interval(p.efficiency_ratio)},
             {"efficiency_verdict", name_of(p.efficiency_verdict)},
-            {"time_ratio", interval(p.time_ratio)},
+            {"time_ratio", json_interval(p.time_ratio)},
             {"time_verdict", name_of(p.time_verdict)}};
 }
 
 Json effect(const EffectReport& e)
 {
     return {{"on", e.on},
-            {"share", figure(e.share)},
+            {"share", json_figure(e.share)},
             {"why", e.why},
-            {"saved_rays_per_sample", figure(e.saved_rays_per_sample)},
-            {"saved_seconds_per_sample", figure(e.saved_seconds_per_sample)}};
+            {"saved_rays_per_sample", json_figure(e.saved_rays_per_sample)},
+            {"saved_seconds_per_sample", json_figure(e.saved_seconds_per_sample)}};
 }
 
 Json scene(const SceneReport& s, const Report& report)
@@ -112,10 +90,10 @@ Json scene(const SceneReport& s, const Report& report)
               {"shading_points", s.shading_points},
               {"background_pixels", s.background_pixels},
               {"replicates", s.replicates},
-              {"epsilon", figure(s.epsilon)},
+              {"epsilon", json_figure(s.epsilon)},
               {"settled", s.settled},
               {"partial", s.partial},
-              {"seconds", figure(s.seconds)}};
+              {"seconds", json_figure(s.seconds)}};
     json["effects"] = Json::object();
     for (const EffectReport& e : s.effects) json["effects"][e.name] = effect(e);
     json["strategies"] = Json::array();
@@ -131,9 +109,9 @@ Json overall(const OverallReport& o)
     return {{"name", o.name},
             {"rank", place(o.rank)},
             {"rank_by_efficiency", place(o.rank_by_efficiency)},
-            {"variance_ratio", interval(o.variance_ratio)},
-            {"cost_ratio", interval(o.cost_ratio)},
-            {"time_ratio", interval(o.time_ratio)},
+            {"variance_ratio", json_interval(o.variance_ratio)},
+            {"cost_ratio", json_interval(o.cost_ratio)},
+            {"time_ratio", json_interval(o.time_ratio)},
             {"beaten_by_exact", o.beaten_by_exact}};
 }
 
@@ -165,15 +143,14 @@ std::string report_json(const Report& report)
               {"machine", report.machine},
               {"instruction_set", report.instruction_set},
               {"partial", report.partial},
-              {"margin", figure(report.margin)},
-              {"at", figure(report.at)}};
+              {"margin", json_figure(report.margin)},
+              {"at", json_figure(report.at)}};
     json["scenes"] = Json::array();
     for (const SceneReport& s : report.scenes) json["scenes"].push_back(scene(s, report));
     json["overall"] = Json::array();
     for (const OverallReport& o : report.overall) json["overall"].push_back(overall(o));
     json["sentences"] = overall_sentences_of(report);
-    // A command line or a file name may hold bytes that are not UTF-8; JSON cannot.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 void write_report_json(const Report& report, const std::string& path)
