@@ -46,7 +46,7 @@ struct CostCurveReport {
     std::string reason;            ///< why there are no points, in words; else empty
     std::vector<CostPoint> points;  ///< by samples
     Interval slope;                ///< d log(error)/d log(samples): −½ for any unbiased estimate
-    Interval slope_in_time;        ///< d log(error)/d log(seconds): flatter by what is prepared
+    Interval slope_in_time;        ///< d log(error)/d log(seconds): steeper by what is prepared
     double slope_p_value = 1;      ///< of −½ against the slope; below it nothing is extrapolated
     bool fits = true;              ///< error² = V/n holds as far as was measured
     Interval relative_variance;    ///< V: samples · error²
