@@ -22,9 +22,9 @@ void check_options(const CostCommandOptions& options)
     check(options.stop, 1);
     constexpr std::int64_t most = std::int64_t{1} << 24;
     if (options.stop.spp && *options.stop.spp > most)
-        throw UsageError(fmt::format(
-            "--spp: found {}; 1 to {} samples per shading point are allowed", *options.stop.spp,
-            most));
+        throw UsageError(
+            fmt::format("--spp: found {}; 1 to {} samples per shading point are allowed",
+                        *options.stop.spp, most));
     check(options.output);
 }
 
@@ -43,8 +43,8 @@ std::vector<CostChoice> choices_of(const StrategySelection& selection,
     for (const std::string& name :
          names_listed("--precision", precisions, "float", {"float", "double"}))
         for (const Strategy& strategy : selection.strategies) {
-            const CostChoice choice{
-                strategy, name == "double" ? Precision::in_double : Precision::in_float};
+            const CostChoice choice{strategy,
+                                    name == "double" ? Precision::in_double : Precision::in_float};
             if (std::find(choices.begin(), choices.end(), choice) == choices.end())
                 choices.push_back(choice);
         }

@@ -61,7 +61,8 @@ void add_product(StrategySelection& selection, const StrategyLists& lists)
 }  // namespace
 
 std::vector<std::string> names_listed(const std::string& option, const std::string& given,
-                                const std::string& otherwise, const std::vector<std::string>& known)
+                                      const std::string& otherwise,
+                                      const std::vector<std::string>& known)
 {
     const std::vector<std::string> names = split_list(given.empty() ? otherwise : given, option);
     const std::vector<std::string_view> views(known.begin(), known.end());

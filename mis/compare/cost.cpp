@@ -41,8 +41,8 @@ CostPoint point_of(const CostLevel& level, const SquaredError& error, const Cost
 {
     return {.samples = level.samples,
             .error = error_interval(error),
-            .seconds = scaled(interval_of_median(level.seconds), static_cast<double>(ground.points) /
-                                                               ground.threads),
+            .seconds = scaled(interval_of_median(level.seconds),
+                              static_cast<double>(ground.points) / ground.threads),
             .trust = error.trust};
 }
 
@@ -120,8 +120,8 @@ CostModel model_of(const CostMeasurements& curve, const CostGround& ground)
                     .points_per_thread = static_cast<double>(ground.points) / ground.threads,
                     .least_error = std::numeric_limits<double>::infinity()};
     for (const CostLevel* level : fitted)
-        model.least_error = std::min(model.least_error,
-                                     std::sqrt(squared_error(*level, ground.reference).value));
+        model.least_error =
+            std::min(model.least_error, std::sqrt(squared_error(*level, ground.reference).value));
     if (!curve.levels.empty())
         for (std::size_t r = 0; r < curve.levels[0].seconds.size(); ++r)
             model.times.push_back(fitted_time(curve.levels, r));

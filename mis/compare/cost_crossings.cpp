@@ -29,11 +29,11 @@ std::vector<double> row_of_errors(std::span<const CostModel> models)
 {
     double largest = 0;
     for (const CostModel& model : models)
-        if (takes_part(model))
-            largest = std::max(largest, first_error(model));
+        if (takes_part(model)) largest = std::max(largest, first_error(model));
     std::vector<double> errors;
     const double step = std::pow(10.0, -1 / steps_per_decade);
-    for (double e = std::min(largest, 1.0); e >= least_crossing_error; e *= step) errors.push_back(e);
+    for (double e = std::min(largest, 1.0); e >= least_crossing_error; e *= step)
+        errors.push_back(e);
     return errors;
 }
 
@@ -89,8 +89,8 @@ void add_crossings(std::vector<CrossingReport>& found, std::span<const TimeRow> 
             const bool a_leads = stands[*last].lead < 0;
             c.before = static_cast<int>(a_leads ? a : b);
             c.after = static_cast<int>(a_leads ? b : a);
-            c.is_extrapolated = c.error.value < std::max(rows[a].model->least_error,
-                                                         rows[b].model->least_error);
+            c.is_extrapolated =
+                c.error.value < std::max(rows[a].model->least_error, rows[b].model->least_error);
             found.push_back(c);
         }
         last = i;

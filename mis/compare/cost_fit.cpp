@@ -45,7 +45,8 @@ std::vector<Observed> observed(std::span<const CostLevel* const> levels)
 {
     std::vector<Observed> all;
     for (const CostLevel* level : levels) {
-        Observed o{.samples = static_cast<double>(level->samples), .squared_errors = {}, .seconds = {}};
+        Observed o{
+            .samples = static_cast<double>(level->samples), .squared_errors = {}, .seconds = {}};
         for (const std::vector<double>& replicate : level->squared_errors)
             o.squared_errors.push_back(std::accumulate(replicate.begin(), replicate.end(), 0.0));
         o.seconds = level->seconds;
@@ -65,8 +66,8 @@ struct Line {
             x.push_back(std::log(against == Against::samples
                                      ? level.samples
                                      : mean_without(level.seconds, left_out)));
-            logs.push_back(
-                0.5 * std::log(mean_without(level.squared_errors, left_out) - reference));
+            logs.push_back(0.5 *
+                           std::log(mean_without(level.squared_errors, left_out) - reference));
         }
         weights = slope_weights(x);
     }
@@ -156,8 +157,7 @@ LogEstimate fitted_slope(std::span<const CostLevel* const> levels, const Referen
 Interval linear_interval(const LogEstimate& estimate)
 {
     if (!(estimate.se >= 0)) return {estimate.value, nan, nan};
-    const double half_width =
-        estimate.se > 0 ? t_quantile(0.025, estimate.dof) * estimate.se : 0;
+    const double half_width = estimate.se > 0 ? t_quantile(0.025, estimate.dof) * estimate.se : 0;
     return {estimate.value, estimate.value - half_width, estimate.value + half_width};
 }
 

@@ -11,7 +11,7 @@ namespace mis {
 /// is left out for an outlier that it met; none where fewer than `least_participation` squared
 /// errors carry samples · error² of all of them together.
 std::vector<const CostLevel*> fitted_levels(std::span<const CostLevel> levels,
-                                             const ReferenceError& reference);
+                                            const ReferenceError& reference);
 
 /// Logarithm of V in error² = V/n: the mean of samples · error² over the levels, each counted
 /// alike, so that no level is preferred for having come out low. NaN where there is no level, or V

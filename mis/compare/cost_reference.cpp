@@ -36,8 +36,7 @@ std::vector<std::size_t> probes_of_points(const StudyPoints& points)
 {
     std::vector<std::size_t> probes(points.figure_lit);
     for (std::size_t p = 0; p < points.probe_point.size(); ++p)
-        if (points.probe_point[p] >= 0)
-            probes[static_cast<std::size_t>(points.probe_point[p])] = p;
+        if (points.probe_point[p] >= 0) probes[static_cast<std::size_t>(points.probe_point[p])] = p;
     return probes;
 }
 
@@ -91,9 +90,9 @@ void put_best_first(std::span<Source> sources, std::size_t lights)
     const auto cost = [&](const Source& source) {
         return source.relative_variance * draws_of(source.run.strategy(), lights);
     };
-    const auto best = std::min_element(
-        sources.begin(), sources.end(),
-        [&](const Source& a, const Source& b) { return cost(a) < cost(b); });
+    const auto best =
+        std::min_element(sources.begin(), sources.end(),
+                         [&](const Source& a, const Source& b) { return cost(a) < cost(b); });
     std::iter_swap(sources.begin(), best);
 }
 
@@ -149,8 +148,7 @@ CostReference finished(const StudyGround& ground, std::span<const Source> source
     CostReference reference;
     reference.means = pooled_means(sources, ground.points.figure_lit);
     reference.scale = scale_of(ground, reference.means);
-    reference.error =
-        error_of(ground, sources, reference.scale.squares, reference.report.agrees);
+    reference.error = error_of(ground, sources, reference.scale.squares, reference.report.agrees);
     reference.report.error = std::sqrt(reference.error.floor);
     for (const Source& source : sources) {
         reference.report.sources.push_back(name_of(source.run.strategy()));
@@ -185,8 +183,8 @@ std::optional<CostReference> exact_reference(const StudyGround& ground)
         return std::nullopt;
     reference.scale = scale_of(ground, reference.means);
     for (std::size_t p = 0; p < errors.size(); ++p)
-        reference.error.floor += relative(errors[p] * errors[p], reference.scale.squares[p]) /
-                                 points_of(ground);
+        reference.error.floor +=
+            relative(errors[p] * errors[p], reference.scale.squares[p]) / points_of(ground);
     reference.report.exact = true;
     reference.report.error = std::sqrt(reference.error.floor);
     return reference;

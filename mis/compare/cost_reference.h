@@ -31,10 +31,10 @@ inline constexpr std::size_t most_lights_for_quadrature = 64;
 /// hide. Nothing where that cannot answer.
 std::optional<CostReference> exact_reference(const StudyGround& ground);
 
-/// From samples of up to three strategies that fail in different places, each weighed by its samples
-/// over its relative variance: most are of the best, the others check it. `power/power` alone where
-/// there are many lights. Their random numbers serve nothing
-/// else. How far they differ beyond their noise counts as the reference's error.
+/// From samples of up to three strategies that fail in different places, each weighed by its
+/// samples over its relative variance: most are of the best, the others check it. `power/power`
+/// alone where there are many lights. Their random numbers serve nothing else. How far they differ
+/// beyond their noise counts as the reference's error.
 CostReference pooled_reference(const StudyGround& ground, const ReferenceLimit& limit);
 
 }  // namespace mis

@@ -43,13 +43,13 @@ struct TimeToError {
 struct CostCurveReport {
     Strategy strategy;
     Precision precision = Precision::in_float;
-    std::string reason;            ///< why there are no points, in words; else empty
+    std::string reason;             ///< why there are no points, in words; else empty
     std::vector<CostPoint> points;  ///< by samples
-    Interval slope;                ///< d log(error)/d log(samples): −½ for any unbiased estimate
-    Interval slope_in_time;        ///< d log(error)/d log(seconds): steeper by what is prepared
-    double slope_p_value = 1;      ///< of −½ against the slope; below it nothing is extrapolated
-    bool fits = true;              ///< error² = V/n holds as far as was measured
-    Interval relative_variance;    ///< V: samples · error²
+    Interval slope;              ///< d log(error)/d log(samples): −½ for any unbiased estimate
+    Interval slope_in_time;      ///< d log(error)/d log(seconds): steeper by what is prepared
+    double slope_p_value = 1;    ///< of −½ against the slope; below it nothing is extrapolated
+    bool fits = true;            ///< error² = V/n holds as far as was measured
+    Interval relative_variance;  ///< V: samples · error²
     Interval seconds_per_point, seconds_per_sample;  ///< CPU
     std::vector<TimeToError> times;                  ///< of cost_targets, in their order
     std::uint64_t invalid_samples = 0;
@@ -67,7 +67,7 @@ struct ReferenceReport {
     bool exact = false;                ///< from quadrature (`predict`)
     std::vector<std::string> sources;  ///< names of the strategies it is pooled from
     std::uint64_t samples = 0;         ///< per shading point, of the first source; 0 where exact
-    double error = 0;  ///< root of its mean relative squared error; exact: a bound of it
+    double error = 0;    ///< root of its mean relative squared error; exact: a bound of it
     bool agrees = true;  ///< its sources differ by no more than their noise
 };
 
@@ -76,9 +76,9 @@ struct CostSceneReport {
     std::size_t lights = 0;
     int width = 0, height = 0;  ///< 0 without a camera
     std::size_t shading_points = 0;
-    int replicates = 0;       ///< independent ones, of every point of a curve
-    std::size_t copies = 1;   ///< of every shading point in a replicate: probes are few
-    double epsilon = 0;       ///< of the relative error
+    int replicates = 0;      ///< independent ones, of every point of a curve
+    std::size_t copies = 1;  ///< of every shading point in a replicate: probes are few
+    double epsilon = 0;      ///< of the relative error
     bool partial = false;
     double seconds = 0;  ///< wall
     ReferenceReport reference;

@@ -55,10 +55,10 @@ private:
         TileErrors sum;
         workspaces_.with([&](Workspace<T>& workspace) {
             sum.cost = workspace.run(
-                ready_.job(tile,
-                           std::span(points_.points.shading.points).subspan(tile.first, tile.count)),
-                ready_.pipeline(tile.material),
-                {stream << 40, static_cast<int>(samples), 1}, results, {}, {});
+                ready_.job(
+                    tile, std::span(points_.points.shading.points).subspan(tile.first, tile.count)),
+                ready_.pipeline(tile.material), {stream << 40, static_cast<int>(samples), 1},
+                results, {}, {});
         });
         for (std::size_t i = 0; i < results.size(); ++i) {
             const std::size_t p = (tile.first + i) / points_.copies;

@@ -18,8 +18,7 @@ const TimeToError* to_one_percent(const CostCurveReport& curve)
 /// "0.8 s (0.7 s to 0.9 s)".
 std::string with_bounds(const Interval& seconds)
 {
-    if (!std::isfinite(seconds.low) || !std::isfinite(seconds.high))
-        return duration(seconds.value);
+    if (!std::isfinite(seconds.low) || !std::isfinite(seconds.high)) return duration(seconds.value);
     return duration(seconds.value) + " (" + duration(seconds.low) + " to " +
            duration(seconds.high) + ")";
 }
@@ -29,13 +28,12 @@ void add_first(std::vector<std::string>& sentences, const CostSceneReport& scene
     const CostCurveReport* first = nullptr;
     for (const CostCurveReport& curve : scene.curves)
         if (const TimeToError* time = to_one_percent(curve))
-            if (first == nullptr ||
-                time->seconds.value < to_one_percent(*first)->seconds.value)
+            if (first == nullptr || time->seconds.value < to_one_percent(*first)->seconds.value)
                 first = &curve;
     if (first == nullptr) return;
     const TimeToError& time = *to_one_percent(*first);
-    std::string text = name_of(*first) + " is the first to reach 1 % error, after " +
-                       with_bounds(time.seconds);
+    std::string text =
+        name_of(*first) + " is the first to reach 1 % error, after " + with_bounds(time.seconds);
     if (time.reach == Reach::extrapolated) text += ", extrapolated";
     std::vector<std::string> close;
     for (const CostCurveReport& curve : scene.curves)
@@ -49,11 +47,11 @@ void add_first(std::vector<std::string>& sentences, const CostSceneReport& scene
 void add_crossings(std::vector<std::string>& sentences, const CostSceneReport& scene)
 {
     for (const CrossingReport& c : scene.crossings)
-        sentences.push_back(
-            name_of(scene.curves[static_cast<std::size_t>(c.before)]) + " beats " +
-            name_of(scene.curves[static_cast<std::size_t>(c.after)]) + " below " +
-            with_bounds(c.seconds) + ", where both err by " + percent(c.error.value) +
-            (c.is_extrapolated ? " (extrapolated)" : "") + "; beyond, it is the other way round.");
+        sentences.push_back(name_of(scene.curves[static_cast<std::size_t>(c.before)]) + " beats " +
+                            name_of(scene.curves[static_cast<std::size_t>(c.after)]) + " below " +
+                            with_bounds(c.seconds) + ", where both err by " +
+                            percent(c.error.value) + (c.is_extrapolated ? " (extrapolated)" : "") +
+                            "; beyond, it is the other way round.");
 }
 
 void add_doubts(std::vector<std::string>& sentences, const CostCurveReport& curve)
@@ -64,8 +62,7 @@ void add_doubts(std::vector<std::string>& sentences, const CostCurveReport& curv
         return;
     }
     if (!curve.fits)
-        sentences.push_back(name +
-                            " does not fall like the root of its samples (p = " +
+        sentences.push_back(name + " does not fall like the root of its samples (p = " +
                             number(curve.slope_p_value, 2) +
                             " for a slope of -1/2), so nothing of it is extrapolated.");
     std::size_t trusted = 0, rare = 0;

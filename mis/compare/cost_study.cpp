@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int replicates = 8;
-constexpr double reference_share = 0.3;    // of the time, at most
+constexpr double reference_share = 0.3;         // of the time, at most
 constexpr std::uint64_t reference_factor = 64;  // its samples over the last doubling's, with --spp
 constexpr std::size_t least_levels = 5, levels_before_twins = 3;
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 24;
@@ -106,8 +106,9 @@ private:
 
     bool is_finished() const
     {
-        return ground_.is_stopped() || std::all_of(curves_.begin(), curves_.end(),
-                                                   [](const Curve& curve) { return curve.is_done; });
+        return ground_.is_stopped() ||
+               std::all_of(curves_.begin(), curves_.end(),
+                           [](const Curve& curve) { return curve.is_done; });
     }
 
     /// Every curve that is not done takes `samples` of every point, replicate by replicate.
@@ -117,8 +118,8 @@ private:
         std::vector<double> seconds(curves_.size());
         for (int r = 0; r < replicates; ++r) {
             const std::uint64_t stream = level_ * replicates + static_cast<std::uint64_t>(r);
-            for (const std::size_t c : round_order(curves_.size(), options_.seed,
-                                                   static_cast<std::uint32_t>(stream))) {
+            for (const std::size_t c :
+                 round_order(curves_.size(), options_.seed, static_cast<std::uint32_t>(stream))) {
                 if (ground_.is_stopped()) return;
                 if (curves_[c].is_done || !is_ready(curves_[c])) continue;
                 const Clock::time_point start = Clock::now();
@@ -138,8 +139,8 @@ private:
         for (Curve& curve : curves_) end_if_done(curve, samples);
     }
 
-    /// Makes the curve's sampler. The first touch of memory is no cost of the strategy, so one sample
-    /// counts for nothing. False where there is no time for replicates of such samples.
+    /// Makes the curve's sampler. The first touch of memory is no cost of the strategy, so one
+    /// sample counts for nothing. False where there is no time for replicates of such samples.
     bool is_ready(Curve& curve)
     {
         if (curve.sampler) return true;
@@ -150,8 +151,8 @@ private:
         const double seconds = seconds_since(start);
         if (options_.spp || seconds * replicates < seconds_left()) return true;
         curve.is_done = true;
-        curve.measured.reason = "past the budget: one sample per point takes " +
-                                duration(seconds) + ", " + std::to_string(replicates) + " times";
+        curve.measured.reason = "past the budget: one sample per point takes " + duration(seconds) +
+                                ", " + std::to_string(replicates) + " times";
         return false;
     }
 

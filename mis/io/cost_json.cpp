@@ -81,8 +81,7 @@ Json scene_json(const CostSceneReport& s)
     json["strategies"] = Json::array();
     for (const CostCurveReport& c : s.curves) json["strategies"].push_back(curve_json(c));
     json["crossings"] = Json::array();
-    for (const CrossingReport& c : s.crossings)
-        json["crossings"].push_back(crossing_json(c, s));
+    for (const CrossingReport& c : s.crossings) json["crossings"].push_back(crossing_json(c, s));
     json["sentences"] = sentences_of(s);
     return json;
 }
@@ -108,17 +107,17 @@ std::string tail(const CostCurveReport& c)
 
 std::string rows(const CostSceneReport& scene, const CostCurveReport& c)
 {
-    if (c.points.empty())
-        return identity(scene, c) + "none,,,,,,,," + tail(c);
+    if (c.points.empty()) return identity(scene, c) + "none,,,,,,,," + tail(c);
     std::string text;
     for (const CostPoint& p : c.points)
-        text += identity(scene, c) + fmt::format("point,{},{},{},{}", p.samples, cells(p.error),
-                                                 cells(p.seconds), name_of(p.trust)) +
+        text += identity(scene, c) +
+                fmt::format("point,{},{},{},{}", p.samples, cells(p.error), cells(p.seconds),
+                            name_of(p.trust)) +
                 tail(c);
     for (const TimeToError& t : c.times)
-        text += identity(scene, c) + fmt::format("time_to,{},{},,,{},{}", csv_field(t.samples),
-                                                 csv_field(t.error), cells(t.seconds),
-                                                 name_of(t.reach)) +
+        text += identity(scene, c) +
+                fmt::format("time_to,{},{},,,{},{}", csv_field(t.samples), csv_field(t.error),
+                            cells(t.seconds), name_of(t.reach)) +
                 tail(c);
     return text;
 }

@@ -36,16 +36,15 @@ std::string heading(const CostSceneReport& s, int threads)
 std::string reference(const ReferenceReport& r)
 {
     if (r.exact)
-        return wrapped("reference: exact, by quadrature; its error is at most " +
-                       percent(r.error));
+        return wrapped("reference: exact, by quadrature; its error is at most " + percent(r.error));
     if (r.samples == 0) return "";
-    const std::string others = r.sources.size() < 2
-                                   ? ""
-                                   : ", pooled with fewer of " +
-                                         listed(std::span(r.sources).subspan(1));
-    return wrapped(fmt::format("reference: {} samples per point of {}{}; its own error of {} is "
-                               "taken off, and errors below it are not trusted",
-                               r.samples, r.sources.front(), others, percent(r.error)));
+    const std::string others =
+        r.sources.size() < 2 ? ""
+                             : ", pooled with fewer of " + listed(std::span(r.sources).subspan(1));
+    return wrapped(
+        fmt::format("reference: {} samples per point of {}{}; its own error of {} is "
+                    "taken off, and errors below it are not trusted",
+                    r.samples, r.sources.front(), others, percent(r.error)));
 }
 
 /// Soonest to 1 % first, those without a curve last.
@@ -172,8 +171,8 @@ std::string times(const CostSceneReport& scene)
 
 std::string cost_text(const CostSceneReport& scene, int threads)
 {
-    std::string text = heading(scene, threads) + reference(scene.reference) + "\n" +
-                       slopes(scene) + errors(scene) + times(scene);
+    std::string text = heading(scene, threads) + reference(scene.reference) + "\n" + slopes(scene) +
+                       errors(scene) + times(scene);
     const std::vector<std::string> sentences = sentences_of(scene);
     if (!sentences.empty()) text += "\n";
     for (const std::string& sentence : sentences) text += wrapped(sentence);

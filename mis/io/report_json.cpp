@@ -4,7 +4,6 @@
 #include "mis/io/atomic_file.h"
 #include "mis/io/json_parts.h"
 
-
 namespace mis {
 namespace {
 

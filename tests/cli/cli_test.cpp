@@ -186,8 +186,8 @@ TEST(CommandLine, MeasuresErrorAtProbesAgainstQuadrature)
     const Outcome outcome =
         mis_with("cost '" + file + "' --spp 8 --policy uniform,power --heuristic power --quiet");
     ASSERT_EQ(outcome.exit, 0) << outcome.error;
-    for (const char* part : {"exact, by quadrature", "uniform/power", "/power@4+1",
-                             " in double", "time to"})
+    for (const char* part :
+         {"exact, by quadrature", "uniform/power", "/power@4+1", " in double", "time to"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "\n" << outcome.out;
 }
 

@@ -108,7 +108,8 @@ TEST(CostStudy, MeasuresTheSameAgainstAPooledReferenceAsAgainstTheExactOne)
 TEST(CostStudy, HasTheSameFiguresOnAnyNumberOfThreads)
 {
     const Scene scene = small_picture();
-    std::vector<CostChoice> choices = named({"uniform/power", "power/light", "brdf"});
+    std::vector<CostChoice> choices =
+        named({"uniform/power", "power/light", "solid-angle/balance"});
     choices.push_back({choices[0].strategy, Precision::in_double});
     const CostSceneReport one = study_of(scene, choices, {.spp = 8});
     const CostSceneReport three =

@@ -9,13 +9,14 @@
 
 namespace mis {
 
-/// A curve as it would be measured: error² = variance/n + bias², seconds = prepare + n·per_sample of
-/// a point, both with noise.
+/// A curve as it would be measured: error² = variance/n + bias², seconds = prepare + n·per_sample
+/// of a point, both with noise.
 struct SyntheticCurve {
     std::string name = "power/power";
-    double variance = 0.01, bias = 0, reference = 0;  ///< reference: its squared error, added to all
-    double prepare = 0, per_sample = 1e-7;            ///< seconds
-    double noise = 0.02, clock_noise = 0.01;          ///< relative, of one replicate
+    double variance = 0.01, bias = 0,
+           reference = 0;                     ///< reference: its squared error, added to all
+    double prepare = 0, per_sample = 1e-7;    ///< seconds
+    double noise = 0.02, clock_noise = 0.01;  ///< relative, of one replicate
     int levels = 7;
     double carriers = 1e6;  ///< squared errors that carry a level
     std::uint64_t seed = 1;
