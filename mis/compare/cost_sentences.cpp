@@ -61,6 +61,11 @@ void add_doubts(std::vector<std::string>& sentences, const CostCurveReport& curv
         sentences.push_back(name + " has no curve: " + curve.reason + ".");
         return;
     }
+    if (std::all_of(curve.points.begin(), curve.points.end(),
+                    [](const CostPoint& point) { return point.error.high == 0; })) {
+        sentences.push_back(name + " has no error at all.");
+        return;
+    }
     if (!curve.fits)
         sentences.push_back(name + " does not fall like the root of its samples (p = " +
                             number(curve.slope_p_value, 2) +

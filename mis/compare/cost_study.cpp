@@ -5,12 +5,10 @@
 #include "mis/compare/cost_sampler.h"
 #include "mis/compare/schedule.h"
 #include "mis/compare/words.h"
-#include "mis/strategy/names.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 namespace mis {
 namespace {
@@ -33,7 +31,7 @@ double seconds_since(Clock::time_point start)
 struct Curve {
     CostMeasurements measured;
     std::unique_ptr<CostSampler> sampler;
-    double level_seconds = 0;  ///< wall, of the last level
+    double level_seconds = 0, all_seconds = 0;  ///< wall, of the last level and of all
     bool is_done = false;
 };
 
@@ -70,6 +68,18 @@ private:
     }
 
     double seconds_left() const { return options_.seconds - seconds_since(start_); }
+
+    /// So far past the time that the level at hand is given up.
+    bool is_late() const { return !options_.spp && seconds_left() < -0.1 * options_.seconds; }
+
+    void end_all()
+    {
+        for (Curve& curve : curves_) {
+            curve.is_done = true;
+            if (curve.measured.levels.empty() && curve.measured.reason.empty())
+                curve.measured.reason = "past the budget: the first doubling was not done in time";
+        }
+    }
 
     void add_curve(const CostChoice& choice)
     {
@@ -121,6 +131,7 @@ private:
             for (const std::size_t c :
                  round_order(curves_.size(), options_.seed, static_cast<std::uint32_t>(stream))) {
                 if (ground_.is_stopped()) return;
+                if (is_late()) return end_all();
                 if (curves_[c].is_done || !is_ready(curves_[c])) continue;
                 const Clock::time_point start = Clock::now();
                 add_replicate(levels[c], curves_[c], samples, stream);
@@ -134,6 +145,7 @@ private:
             levels[c].samples = samples;
             curves_[c].measured.levels.push_back(std::move(levels[c]));
             curves_[c].level_seconds = seconds[c];
+            curves_[c].all_seconds += seconds[c];
         }
         ++level_;
         for (Curve& curve : curves_) end_if_done(curve, samples);
@@ -149,7 +161,7 @@ private:
         curve.sampler = make_sampler(ground_, judged_, reference_, m.strategy, m.precision);
         curve.sampler->run(1, apart);
         const double seconds = seconds_since(start);
-        if (options_.spp || seconds * replicates < seconds_left()) return true;
+        if (options_.spp || seconds * replicates < 0.5 * seconds_left()) return true;
         curve.is_done = true;
         curve.measured.reason = "past the budget: one sample per point takes " + duration(seconds) +
                                 ", " + std::to_string(replicates) + " times";
@@ -173,8 +185,10 @@ private:
             curve.is_done = 2 * samples > *options_.spp;
             return;
         }
-        const double active = static_cast<double>(std::count_if(
-            curves_.begin(), curves_.end(), [](const Curve& c) { return !c.is_done; }));
+        const double to_come = options_.adds_twins && level_ < levels_before_twins ? 2 : 0;
+        const double active =
+            to_come + static_cast<double>(std::count_if(curves_.begin(), curves_.end(),
+                                                        [](const Curve& c) { return !c.is_done; }));
         const bool fits = 2 * curve.level_seconds <= 0.9 * seconds_left() / active;
         curve.is_done = !fits || 2 * samples > most_samples || tells_no_more(curve.measured);
     }
@@ -193,28 +207,25 @@ private:
 
     void add_twins()
     {
-        const Curve* best = nullptr;
-        double least = std::numeric_limits<double>::infinity();
+        std::vector<std::pair<double, const Curve*>> by_time;
         for (const Curve& curve : curves_) {
             if (curve.measured.levels.size() < levels_before_twins) continue;
             const CostModel model = model_of(curve.measured, arithmetic_ground());
-            if (std::isnan(model.log_variance.value)) continue;
-            const double seconds = log_seconds_to(model, 0.01).value;
-            if (seconds < least) least = seconds, best = &curve;
+            if (!std::isnan(model.log_variance.value))
+                by_time.emplace_back(log_seconds_to(model, 0.01).value, &curve);
         }
-        if (best == nullptr) return;
-        const Strategy strategy = best->measured.strategy;
-        add_late({strategy, Precision::in_double});
-        if (!strategy.chooses_light() || strategy.heuristic == "light" ||
-            draws_every_light(strategy.policy) || strategy.model != Model::multi)
-            return;
-        Strategy more = strategy;
-        more.counts = {4, 1};
-        add_late({more, Precision::in_float});
+        if (by_time.empty()) return;
+        std::stable_sort(by_time.begin(), by_time.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        const double seconds = by_time.front().second->all_seconds;
+        std::vector<Strategy> strategies;
+        for (const auto& [_, curve] : by_time) strategies.push_back(curve->measured.strategy);
+        for (const CostChoice& twin : twins_of(strategies)) add_late(twin, seconds);
     }
 
-    /// A curve that begins later than the others, with the levels that they have.
-    void add_late(const CostChoice& choice)
+    /// A curve that begins later than the others, with the levels that they have; alike: what these
+    /// took of a strategy that is like it.
+    void add_late(const CostChoice& choice, double alike)
     {
         for (const Curve& curve : curves_)
             if (curve.measured.strategy == choice.strategy &&
@@ -222,7 +233,12 @@ private:
                 return;
         add_curve(choice);
         Curve& curve = curves_.back();
-        if (!is_ready(curve)) return;
+        constexpr double dearer = 2.5;  // at most, about
+        if (!options_.spp && dearer * alike > 0.8 * seconds_left()) {
+            curve.is_done = true;
+            curve.measured.reason = "past the budget: no time is left for another curve";
+        }
+        if (curve.is_done || !is_ready(curve)) return;
         for (std::size_t k = 0; k < level_; ++k) {
             CostLevel level;
             level.samples = std::uint64_t{1} << k;
@@ -233,6 +249,7 @@ private:
                               k * replicates + static_cast<std::uint64_t>(r));
             }
             curve.level_seconds = seconds_since(start);
+            curve.all_seconds += curve.level_seconds;
             curve.measured.levels.push_back(std::move(level));
         }
     }

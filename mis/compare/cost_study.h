@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/compare/cost_report.h"
+#include "mis/compare/cost_choices.h"
 #include "mis/engine/lit_scene.h"
 
 #include <atomic>
@@ -10,19 +10,11 @@
 
 namespace mis {
 
-/// A strategy in one number type.
-struct CostChoice {
-    Strategy strategy;
-    Precision precision = Precision::in_float;
-    bool operator==(const CostChoice&) const = default;
-};
-
 struct CostOptions {
     std::uint64_t seed = 1;
     double seconds = 30;               ///< wall time, for all
     std::optional<std::uint64_t> spp;  ///< samples per point of the last doubling, for every curve
-    /// Adds to the strategies the one that is the soonest to 1 % after three doublings, in double
-    /// and, unless it draws every light, with four light draws per BSDF draw.
+    /// Adds twins_of() the strategies, by what the first three doublings say.
     bool adds_twins = false;
     const std::atomic<bool>* stop = nullptr;  ///< set from outside: end with the results so far
     std::function<void(double done, const std::string& doing)> progress;

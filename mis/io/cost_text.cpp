@@ -74,6 +74,7 @@ std::string slope(const Interval& x)
 /// it.
 std::string error(const CostPoint& p)
 {
+    if (p.error.high == 0) return "0";
     if (p.trust == Trust::below_reference) return "<" + short_number(100 * p.error.high);
     const std::string value = fmt::format("{:.3g}", 100 * p.error.value);
     if (p.trust == Trust::rare_samples) return "~" + value;

@@ -140,6 +140,18 @@ TEST(CostStudy, AddsTheBestInDoubleAndWithFourLightDraws)
               0.9 * report.curves[0].relative_variance.value);
 }
 
+TEST(CostChoices, AreTheFirstInDoubleAndTheFirstThatMixesWithFourLightDraws)
+{
+    const std::vector<Strategy> by_time{parse_strategy("brdf"), parse_strategy("power/light"),
+                                        parse_strategy("power/power")};
+    const std::vector<CostChoice> twins = twins_of(by_time);
+    ASSERT_EQ(twins.size(), 2U);
+    EXPECT_EQ(twins[0], (CostChoice{by_time[0], Precision::in_double}));
+    EXPECT_EQ(twins[1], (CostChoice{parse_strategy("power/power@4+1")}));
+    EXPECT_TRUE(twins_of({}).empty());
+    EXPECT_EQ(twins_of(std::span(by_time).first(2)).size(), 1U);
+}
+
 TEST(CostStudy, EndsWithWhatThereIsWhenStopped)
 {
     std::atomic<bool> stop = false;

@@ -29,7 +29,7 @@ CostReport sample_report()
                   .reference = 1e-6,
                   .prepare = 2e-6,
                   .seed = 2}),
-        measured({.name = "radiant-solid-angle/balance/projected@4+1", .bias = 0.05}),
+        measured({.name = "radiant-solid-angle/balance/union@4+1", .bias = 0.05}),
         measured({.name = "brdf", .variance = 100, .carriers = 3}),
         {.strategy = parse_strategy("all/power"), .reason = "past the budget", .levels = {}}};
     curves[0].precision = Precision::in_double;
@@ -109,7 +109,7 @@ TEST(CostText, FitsEightyColumnsAndMarksWhatIsNotMeasured)
     for (const char* part :
          {"power/power in double beats radiant-solid-angle/power below", "-0.5", "%*",
           "all/power has no curve: past the budget", "nothing of it is extrapolated", "~",
-          "4000 samples per point of all/power, pooled", "times on 2 threads"})
+          "4000 samples per point of all/power, pooled", "on 2 threads"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
