@@ -3,6 +3,7 @@
 #include "mis/compare/resolved.h"
 #include "mis/math/moments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>

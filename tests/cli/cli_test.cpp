@@ -184,11 +184,16 @@ TEST(CommandLine, MeasuresErrorAtProbesAgainstQuadrature)
         "lights": [{ "center": [0,2,0], "radius": 0.5, "power": 100 },
                    { "center": [2,2,0], "radius": 0.1, "power": 300 }] })";
     const Outcome outcome =
-        mis_with("cost '" + file + "' --spp 8 --policy uniform,power --heuristic power --quiet");
+        mis_with("cost '" + file + "' --spp 8 --policy uniform,power --quiet --csv -");
     ASSERT_EQ(outcome.exit, 0) << outcome.error;
+    // Two policies with the power heuristic and brdf, in float; and the twins of the soonest.
     for (const char* part :
-         {"exact, by quadrature", "uniform/power", "/power@4+1", " in double", "time to"})
+         {",uniform/power,float,point,8,", ",power/power,float,point,8,", ",brdf,float,point,8,",
+          ",double,point,8,", "/power@4+1,float,point,8,"})
         EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "\n" << outcome.out;
+    const Outcome table = mis_with("cost '" + file + "' --spp 8 --strategy power/light --quiet");
+    EXPECT_NE(table.out.find("exact, by quadrature"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("time to"), std::string::npos) << table.out;
 }
 
 TEST(CommandLine, RendersAPictureOrNothing)

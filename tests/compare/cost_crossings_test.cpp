@@ -68,6 +68,13 @@ TEST(CostCrossings, DoNotExistBetweenParallelsOrWhereOneAlwaysLeads)
     EXPECT_TRUE(crossings_of({quick, worse}).empty());
 }
 
+TEST(CostCrossings, AreNotWhereOneHasLessThanASample)
+{
+    // The second is 20 times as dear and errs by 10 % at once; before, it has nothing to show.
+    const SyntheticCurve at_once{.variance = 0.01, .per_sample = 2e-6, .seed = 4};
+    EXPECT_TRUE(crossings_of({{.variance = 0.5}, at_once}).empty());
+}
+
 TEST(CostCrossings, LeaveOutCurvesWithoutAFit)
 {
     SyntheticCurve rare = thorough;
