@@ -112,6 +112,18 @@ SquaredError squared_error(const CostLevel& level, const ReferenceError& referen
     return e;
 }
 
+bool tells_no_more(const CostMeasurements& curve, const ReferenceError& reference)
+{
+    constexpr std::size_t least_levels = 5;
+    const std::size_t n = curve.levels.size();
+    if (n < least_levels) return false;
+    const SquaredError last = squared_error(curve.levels[n - 1], reference),
+                       before = squared_error(curve.levels[n - 2], reference);
+    if (last.trust == Trust::below_reference) return before.trust == last.trust;
+    const double smallest = cost_targets.back();
+    return last.trust == Trust::trusted && last.value < smallest * smallest;
+}
+
 CostModel model_of(const CostMeasurements& curve, const CostGround& ground)
 {
     const std::vector<const CostLevel*> fitted = fitted_levels(curve.levels, ground.reference);

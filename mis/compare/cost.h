@@ -55,6 +55,10 @@ struct SquaredError {
 /// Mean relative squared error of a level, less the reference's.
 SquaredError squared_error(const CostLevel& level, const ReferenceError& reference);
 
+/// Would more doublings tell nothing that is asked for: after five, is the error past the smallest
+/// of cost_targets, or were the last two below what the reference tells?
+bool tells_no_more(const CostMeasurements& curve, const ReferenceError& reference);
+
 /// What extrapolation and crossings go by: error² = V/n, and n samples of a point take one
 /// preparation and n times a sample.
 struct CostModel {

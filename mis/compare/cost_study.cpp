@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int replicates = 8;
 constexpr double reference_share = 0.3;         // of the time, at most
 constexpr std::uint64_t reference_factor = 64;  // its samples over the last doubling's, with --spp
-constexpr std::size_t least_levels = 5, levels_before_twins = 3;
+constexpr std::size_t levels_before_twins = 3;
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 24;
 constexpr std::uint64_t apart = std::uint64_t{1} << 20;  // a stream that no replicate has
 
@@ -190,19 +190,8 @@ private:
             to_come + static_cast<double>(std::count_if(curves_.begin(), curves_.end(),
                                                         [](const Curve& c) { return !c.is_done; }));
         const bool fits = 2 * curve.level_seconds <= 0.9 * seconds_left() / active;
-        curve.is_done = !fits || 2 * samples > most_samples || tells_no_more(curve.measured);
-    }
-
-    /// Past the smallest error asked for, or the last two errors below what can be told.
-    bool tells_no_more(const CostMeasurements& curve) const
-    {
-        const std::size_t n = curve.levels.size();
-        if (n < least_levels) return false;
-        const SquaredError last = squared_error(curve.levels[n - 1], reference_.error),
-                           before = squared_error(curve.levels[n - 2], reference_.error);
-        if (last.trust == Trust::below_reference) return before.trust == last.trust;
-        const double smallest = cost_targets.back();
-        return last.trust == Trust::trusted && last.value < smallest * smallest;
+        curve.is_done =
+            !fits || 2 * samples > most_samples || tells_no_more(curve.measured, reference_.error);
     }
 
     void add_twins()

@@ -130,6 +130,19 @@ TEST(Cost, IsSteeperInTimeWherePreparationIsLong)
     EXPECT_NEAR(much.slope.value, -0.5, 0.01);
 }
 
+TEST(Cost, EndsOnceTheSmallestErrorIsPassedOrTheReferenceTellsNoMore)
+{
+    const ReferenceError none, noisy{.squared = 1e-3, .se = 0, .floor = 1e-3};
+    const SyntheticCurve precise{.variance = 1e-4};  // 0.5 % after 4 samples
+    EXPECT_FALSE(tells_no_more(measured({}), none));
+    EXPECT_TRUE(tells_no_more(measured(precise), none));
+    SyntheticCurve short_one = precise;
+    short_one.levels = 4;
+    EXPECT_FALSE(tells_no_more(measured(short_one), none));
+    EXPECT_TRUE(tells_no_more(measured({.reference = 1e-3}), noisy));
+    EXPECT_FALSE(tells_no_more(measured({.reference = 1e-3, .levels = 5}), noisy));  // one alone
+}
+
 TEST(Cost, HasNoFiguresWithoutLevels)
 {
     CostMeasurements none{.strategy = parse_strategy("brdf"), .reason = "past the budget"};
