@@ -37,6 +37,20 @@ int run_compare(const CompareOptions& options);
 /// --fail-on-regression is given.
 int run_changes(const CompareOptions& options);
 
+struct CostCommandOptions {
+    std::string scene;
+    std::optional<std::string> policies, heuristics, techniques, models,
+        strategies;  ///< lists; the default where not given
+    std::optional<std::string>
+        precisions;  ///< float, double; not given: float, and the best one in double
+    RunOptions run;
+    StopOptions stop;
+    OutputOptions output;
+};
+/// Error against time of every strategy, measured by doubling its samples. Returns `interrupted`
+/// after Ctrl-C, with what there is. Throws as all do.
+int run_cost(const CostCommandOptions& options);
+
 struct ExplainOptions {
     std::string scene;
     RunOptions run;

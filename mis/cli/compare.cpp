@@ -1,5 +1,6 @@
 #include "mis/cli/commands.h"
 #include "mis/cli/interrupt.h"
+#include "mis/cli/memory.h"
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
 #include "mis/cli/report_folder.h"
@@ -12,7 +13,6 @@
 #include "mis/io/report_text.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -20,23 +20,6 @@
 namespace mis::cli {
 
 namespace {
-
-/// Throws UsageError where the study would not fit into memory.
-void check_memory(const Scene& scene, std::size_t strategies)
-{
-    std::size_t points = scene.probes.size();
-    if (scene.camera)
-        points += static_cast<std::size_t>(scene.camera->resolution[0]) *
-                  static_cast<std::size_t>(scene.camera->resolution[1]);
-    const double needed = static_cast<double>(study_bytes(points, strategies));
-    const double there =
-        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-    if (needed > 0.8 * there)
-        throw UsageError(fmt::format(
-            "{}: {} shading points by {} strategies take about {:.1f} GB, and this machine has "
-            "{:.1f} GB\n    Lower --resolution, or compare fewer strategies.",
-            scene.file, points, strategies, needed / 1e9, there / 1e9));
-}
 
 StudyOptions study_options(const CompareOptions& options, Progress& progress)
 {

@@ -20,21 +20,6 @@ std::vector<std::string> names_of(const std::vector<Choosable>& list)
     return names;
 }
 
-/// The names of a list option, each of them known.
-std::vector<std::string> listed(const std::string& option, const std::optional<std::string>& given,
-                                const std::string& otherwise, const std::vector<std::string>& known)
-{
-    const std::vector<std::string> names = split_list(given.value_or(otherwise), option);
-    const std::vector<std::string_view> views(known.begin(), known.end());
-    for (const std::string& name : names) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string_view near = nearest_name(name, views);
-        throw UsageError(option + ": found \"" + name + "\"; known are " + comma_list(views) +
-                         (near.empty() ? "" : "\n    Did you mean \"" + std::string(near) + "\"?"));
-    }
-    return names;
-}
-
 void add(StrategySelection& selection, const Strategy& strategy)
 {
     if (std::find(selection.strategies.begin(), selection.strategies.end(), strategy) ==
@@ -49,12 +34,12 @@ void add_product(StrategySelection& selection, const StrategyLists& lists)
     std::vector<std::string> heuristics_known = names_of(heuristic_names());
     heuristics_known.emplace_back("brdf");
     const auto policies =
-        listed("--policy", lists.policies, default_policies, names_of(policy_names()));
+        names_listed("--policy", lists.policies, default_policies, names_of(policy_names()));
     const auto heuristics =
-        listed("--heuristic", lists.heuristics, default_heuristics, heuristics_known);
+        names_listed("--heuristic", lists.heuristics, default_heuristics, heuristics_known);
     const auto techniques =
-        listed("--technique", lists.techniques, "cone", names_of(technique_names()));
-    const auto models = listed("--model", lists.models, "multi", {"multi", "one-sample"});
+        names_listed("--technique", lists.techniques, "cone", names_of(technique_names()));
+    const auto models = names_listed("--model", lists.models, "multi", {"multi", "one-sample"});
     for (const std::string& model : models)
         for (const std::string& technique : techniques)
             for (const std::string& policy : policies)
@@ -75,11 +60,26 @@ void add_product(StrategySelection& selection, const StrategyLists& lists)
 
 }  // namespace
 
+std::vector<std::string> names_listed(const std::string& option,
+                                      const std::optional<std::string>& given,
+                                      const std::string& otherwise,
+                                      const std::vector<std::string>& known)
+{
+    const std::vector<std::string> names = split_list(given.value_or(otherwise), option);
+    const std::vector<std::string_view> views(known.begin(), known.end());
+    for (const std::string& name : names) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const std::string_view near = nearest_name(name, views);
+        throw UsageError(option + ": found \"" + name + "\"; known are " + comma_list(views) +
+                         (near.empty() ? "" : "\n    Did you mean \"" + std::string(near) + "\"?"));
+    }
+    return names;
+}
+
 StrategySelection select_strategies(const StrategyLists& lists)
 {
     StrategySelection selection;
-    const bool has_lists = lists.policies || lists.heuristics || lists.techniques || lists.models;
-    if (has_lists || !lists.strategies) add_product(selection, lists);
+    if (lists.has_product()) add_product(selection, lists);
     if (lists.strategies)
         for (const std::string& name : split_list(*lists.strategies, "--strategy"))
             add(selection, parse_strategy(name));

@@ -10,9 +10,6 @@
 namespace mis {
 namespace {
 
-/// A mean of float samples may be off by this much of itself and still be right.
-constexpr double rounding = 4e-6;
-
 /// One mean (of the image or of a region), by one strategy.
 struct Series {
     std::vector<double> values;   ///< one per replicate
@@ -146,7 +143,7 @@ private:
             third += std::pow(scaled, 1.5) * other.largest_skewness;
         }
         const MeanAndError d = mean_and_error(difference);
-        const double se = std::hypot(d.se, rounding * std::fabs(reference));
+        const double se = std::hypot(d.se, rounding_of_means * std::fabs(reference));
         const double skewness = spread2 > 0 ? third / std::pow(spread2, 1.5) : 0;
         const double t = d.mean == 0 ? 0 : unskewed(std::fabs(d.mean) / se, skewness);
         const double p = std::min(1.0, 2 * upper_tail(t, static_cast<double>(replicates_ - 1)));

@@ -8,6 +8,9 @@
 
 namespace mis {
 
+/// A mean of float samples may be off by this much of itself and still be right.
+inline constexpr double rounding_of_means = 4e-6;
+
 /// How one strategy's mean stands against the others'.
 struct BiasFinding {
     bool biased = false;
@@ -43,8 +46,8 @@ bool may_lack_rare_samples(const BiasFinding& finding, const StrategyMeasurement
 /// largest skewness that the participation allows, undoes that. The worst is taken out and the rest
 /// tested anew, so that one biased strategy does not condemn the others; of two that differ,
 /// neither is trusted. error: the probability that any of them is called biased and is not
-/// (Bonferroni over strategies and regions). Differences of a few float roundings (4e-6 of the
-/// mean) are no bias.
+/// (Bonferroni over strategies and regions). Differences within
+/// rounding_of_means are no bias.
 std::vector<BiasFinding> find_bias(std::span<const StrategyMeasurements* const> strategies,
                                    double error);
 

@@ -121,6 +121,20 @@ LogEstimate median(std::vector<double> values)
             as_double(n - 1)};
 }
 
+LogEstimate log_median(const std::vector<double>& values)
+{
+    const LogEstimate linear = median(values);
+    return {linear.value > 0 ? std::log(linear.value) : nan, linear.se / linear.value, linear.dof};
+}
+
+Interval interval_of_median(std::vector<double> values)
+{
+    const LogEstimate m = median(std::move(values));
+    if (std::isnan(m.se)) return {m.value, m.se, m.se};
+    const double half_width = m.se > 0 ? t_quantile(interval_tail, m.dof) * m.se : 0;
+    return {m.value, std::max(0.0, m.value - half_width), m.value + half_width};
+}
+
 double upper_tail(double t, double dof)
 {
     if (std::isinf(t)) return t > 0 ? 0 : 1;

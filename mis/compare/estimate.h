@@ -43,6 +43,12 @@ LogEstimate log_mean(std::span<const double> replicates);
 /// six: from Student's t.
 LogEstimate median(std::vector<double> values);
 
+/// Logarithm of the median of `values`; a NaN value where that is not above 0.
+LogEstimate log_median(const std::vector<double>& values);
+
+/// The median and its 95 % interval, not below 0; NaN bounds where the error is not known.
+Interval interval_of_median(std::vector<double> values);
+
 /// P(|T| ≥ |value − at| / se): how surprising the estimate is if the truth is `at`. 1 where the
 /// error is not known.
 double two_sided_p(const LogEstimate& estimate, double at = 0);

@@ -9,15 +9,6 @@ namespace mis {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double interval_tail = 0.025;  // every interval is 95 %
-
-/// Logarithm of the median of `seconds`; a NaN value where there is none above 0.
-LogEstimate log_median(const std::vector<double>& seconds)
-{
-    const LogEstimate linear = median(seconds);
-    return {linear.value > 0 ? std::log(linear.value) : std::numeric_limits<double>::quiet_NaN(),
-            linear.se / linear.value, linear.dof};
-}
 
 using Seconds = std::vector<double> Figures::*;
 
@@ -41,14 +32,6 @@ LogEstimate log_median_ratio(const Figures& a, const Figures& b, Seconds seconds
         paired.dof = a.time_noise_dof;
     }
     return paired;
-}
-
-Interval interval_of_median(std::vector<double> values)
-{
-    const LogEstimate m = median(std::move(values));
-    if (std::isnan(m.se)) return {m.value, m.se, m.se};
-    const double half_width = m.se > 0 ? t_quantile(interval_tail, m.dof) * m.se : 0;
-    return {m.value, std::max(0.0, m.value - half_width), m.value + half_width};
 }
 
 /// Of one point, from its own samples. The interval is normal in the logarithm; none where fewer
@@ -103,8 +86,7 @@ Figures figures_of(const StrategyMeasurements& s, double at)
     if (s.region_variances.size() == s.replicates.size()) f.variances = s.region_variances;
     for (const TimeObservation& time : s.times) {
         f.seconds_at.push_back(time.seconds_per_sample + time.seconds_per_point / at);
-        f.seconds_to_1_percent.push_back(f.samples_to_1_percent * time.seconds_per_sample +
-                                         time.seconds_per_point);
+        f.seconds_to_1_percent.push_back(time.seconds_for(f.samples_to_1_percent));
     }
     if (f.samples_to_1_percent > 1 && !s.times.empty()) {
         double sampling = 0, all = 0;

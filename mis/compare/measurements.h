@@ -55,6 +55,12 @@ struct PooledFigures {
 struct TimeObservation {
     double seconds_per_sample = 0;
     double seconds_per_point = 0;  ///< what is prepared once per point
+
+    /// Of one point with so many samples (docs/theory.md (32)).
+    double seconds_for(double samples) const
+    {
+        return samples * seconds_per_sample + seconds_per_point;
+    }
 };
 
 /// What the other strategies' samples say about this one's variance on some of the points: its own

@@ -1,7 +1,7 @@
 #include "mis/io/changes_json.h"
 
 #include "mis/io/csv_field.h"
-#include "mis/io/json_figures.h"
+#include "mis/io/json_parts.h"
 #include "mis/io/report_json.h"
 
 #include <nlohmann/json.hpp>
@@ -31,15 +31,15 @@ Json json_of(ChangingFigure figure, const Change& change)
     return {{"before", json_figure(change.before)},
             {"after", json_figure(change.after)},
             {name_of_change(figure), json_interval(change.by)},
-            {"verdict", text_or_null(verdict(change))},
+            {"verdict", json_text_or_null(verdict(change))},
             {"regression", change.is_regression}};
 }
 
 Json json_of(const StrategyChange& s)
 {
     Json json{{"name", s.name},
-              {"status_before", text_or_null(status(s.status_before))},
-              {"status_after", text_or_null(status(s.status_after))},
+              {"status_before", json_text_or_null(status(s.status_before))},
+              {"status_after", json_text_or_null(status(s.status_after))},
               {"exact_before", s.exact_before},
               {"exact_after", s.exact_after},
               {"newly_biased", s.is_newly_biased()}};
@@ -53,8 +53,8 @@ Json json_of(const StrategyChange& s)
 Json json_of(const SceneChange& scene)
 {
     Json json{{"name", scene.name},
-              {"file_before", text_or_null(scene.file_before)},
-              {"file_after", text_or_null(scene.file_after)},
+              {"file_before", json_text_or_null(scene.file_before)},
+              {"file_after", json_text_or_null(scene.file_after)},
               {"remarks", scene.remarks},
               {"strategies", Json::array()}};
     for (const StrategyChange& s : scene.strategies) json["strategies"].push_back(json_of(s));

@@ -1,11 +1,10 @@
 #include "mis/io/predict_json.h"
 
 #include "mis/io/csv_field.h"
-#include "mis/io/json_figures.h"
+#include "mis/io/json_parts.h"
 #include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
@@ -14,7 +13,7 @@ namespace mis {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 struct Figure {
     const char* name;
@@ -34,20 +33,15 @@ Json probe_json(const PredictReport::Probe& probe, std::size_t strategy)
             json[name] = {{"value", json_figure(probe.figures[strategy].*value)},
                           {"error", json_figure(probe.figures[strategy].*error)}};
     }
-    json["refusal"] = text_or_null(probe.refusal);
+    json["refusal"] = json_text_or_null(probe.refusal);
     return json;
 }
 
 Json strategy_json(const PredictReport::Scene& scene, std::size_t i)
 {
     const Strategy& s = scene.strategies[i];
-    Json json{{"name", name_of(s)},
-              {"policy", text_or_null(s.policy)},
-              {"heuristic", text_or_null(s.heuristic)},
-              {"technique", s.technique},
-              {"model", s.model == Model::multi ? "multi" : "one-sample"},
-              {"counts", s.chooses_light() ? Json(s.counts) : Json{0, 1}},
-              {"probes", Json::array()}};
+    Json json = json_identity(s);
+    json["probes"] = Json::array();
     for (const PredictReport::Probe& probe : scene.probes)
         json["probes"].push_back(probe_json(probe, i));
     return json;
@@ -84,7 +78,7 @@ std::string predict_json(const PredictReport& report)
                                   {"lights", scene.lights},
                                   {"strategies", strategies}});
     }
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 std::string predict_csv(const PredictReport& report)

@@ -2,14 +2,12 @@
 
 #include "mis/compare/sentences.h"
 #include "mis/io/atomic_file.h"
-#include "mis/io/json_figures.h"
-
-#include <nlohmann/json.hpp>
+#include "mis/io/json_parts.h"
 
 namespace mis {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 Json place(int rank) { return rank > 0 ? Json(rank) : Json(nullptr); }
 
@@ -20,24 +18,11 @@ Json probe(const PointFigures& p)
             {"variance", json_interval(p.variance)}};
 }
 
-/// What it is, as data; "counts" are draws per sample, light and BSDF.
-Json identity(const Strategy& s)
-{
-    return {{"name", name_of(s)},
-            {"policy", text_or_null(s.policy)},
-            {"heuristic", text_or_null(s.heuristic)},
-            {"technique", s.technique},
-            {"model", s.model == Model::multi ? "multi" : "one-sample"},
-            {"counts", s.chooses_light()
-                           ? s.heuristic == "light" ? Json{s.counts[0], 0} : Json(s.counts)
-                           : Json{0, 1}}};
-}
-
 Json strategy(const StrategyReport& s)
 {
-    Json json = identity(s.strategy);
+    Json json = json_identity(s.strategy);
     json["status"] = name_of(s.status);
-    json["reason"] = text_or_null(s.reason);
+    json["reason"] = json_text_or_null(s.reason);
     json["exact"] = s.exact;
     json["rank"] = place(s.rank);
     json["rank_low"] = place(s.rank_low);
@@ -165,8 +150,7 @@ std::string report_json(const Report& report)
     json["overall"] = Json::array();
     for (const OverallReport& o : report.overall) json["overall"].push_back(overall(o));
     json["sentences"] = overall_sentences_of(report);
-    // A command line or a file name may hold bytes that are not UTF-8; JSON cannot.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 void write_report_json(const Report& report, const std::string& path)

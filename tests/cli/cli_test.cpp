@@ -86,6 +86,17 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"integrate --json /no/such/x.json", "there is no folder"},
         BadLine{"render VEACH --out /no/such/x.exr", "there is no folder"},
         BadLine{"render VEACH --strategy brdff --out x.exr", "Did you mean \"brdf\""},
+        BadLine{"cost", "scene is required"},
+        BadLine{"cost VEACH --strategy powr/power", "Did you mean \"power\""},
+        BadLine{"cost VEACH --precision half", "--precision: found \"half\""},
+        BadLine{"cost VEACH --precision float,", "names separated by commas"},
+        BadLine{"cost VEACH --spp 0", "--spp: found 0"},
+        BadLine{"cost VEACH --spp 99999999", "--spp: found 99999999"},
+        BadLine{"cost VEACH --spp 8 --time 2", "found more than one"},
+        BadLine{"cost VEACH --time 0", "--time: found 0"},
+        BadLine{"cost VEACH --error 0.1", "--error"},
+        BadLine{"cost VEACH VEACH", "not expected"},
+        BadLine{"cost VEACH --json - --csv -", "standard output takes one"},
         BadLine{"integrate --pdf cosin", "Did you mean \"cosine\""},
         BadLine{"integrate -n 0", "found"},
     };
@@ -170,7 +181,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithReportsWithOneMessageAndExitCode2)
 TEST(CommandLine, HelpsOnEveryCommand)
 {
     for (const char* command :
-         {"", "compare", "render", "explain", "integrate", "predict", "replay"}) {
+         {"", "compare", "cost", "render", "explain", "integrate", "predict", "replay"}) {
         const Outcome outcome = mis_with(std::string(command) + " --help");
         EXPECT_EQ(outcome.exit, 0);
         EXPECT_NE(outcome.out.find(command[0] == '\0' ? "COMMAND --help" : "Example"),
@@ -216,6 +227,48 @@ TEST(CommandLine, FindsEveryShippedSceneLitAndFinite)
             EXPECT_GT(s["mean"].get<double>(), 0) << name;
         }
     }
+}
+
+TEST(CommandLine, MeasuresErrorAgainstTime)
+{
+    const Outcome outcome =
+        mis_with("cost '" + scene("single") +
+                 "' --resolution 24x16 --spp 16 --strategy power/power,power/power@4+1 "
+                 "--precision float,double --quiet --json -");
+    ASSERT_EQ(outcome.exit, 0) << outcome.error;
+    EXPECT_EQ(outcome.error, "");
+    const auto found = nlohmann::json::parse(outcome.out)["scenes"][0];
+    EXPECT_EQ(found["reference"]["kind"], "pooled");
+    ASSERT_EQ(found["strategies"].size(), 4U);
+    for (const auto& s : found["strategies"]) {
+        ASSERT_EQ(s["points"].size(), 5U);
+        EXPECT_EQ(s["points"][4]["samples"], 16);
+        EXPECT_NEAR(s["slope"]["value"].get<double>(), -0.5, 0.05);
+    }
+    EXPECT_EQ(found["strategies"][3]["name"], "power/power@4+1");
+    EXPECT_EQ(found["strategies"][3]["precision"], "double");
+}
+
+TEST(CommandLine, MeasuresErrorAtProbesAgainstQuadrature)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "probe.json").string();
+    std::ofstream(file) << R"({ "format": "mis-scene/1",
+        "probes": [{ "position": [0,0,0], "normal": [0,1,0], "outgoing": [0,1,0], "material": "m" }],
+        "materials": { "m": { "type": "lambert", "albedo": 0.5 } },
+        "lights": [{ "center": [0,2,0], "radius": 0.5, "power": 100 },
+                   { "center": [2,2,0], "radius": 0.1, "power": 300 }] })";
+    const Outcome outcome =
+        mis_with("cost '" + file + "' --spp 8 --policy uniform,power --quiet --csv -");
+    ASSERT_EQ(outcome.exit, 0) << outcome.error;
+    // Two policies with the power heuristic and brdf, in float; and the twins of the soonest.
+    for (const char* part :
+         {",uniform/power,float,point,8,", ",power/power,float,point,8,", ",brdf,float,point,8,",
+          ",double,point,8,", "/power@4+1,float,point,8,"})
+        EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "\n" << outcome.out;
+    const Outcome table = mis_with("cost '" + file + "' --spp 8 --strategy power/light --quiet");
+    EXPECT_NE(table.out.find("exact, by quadrature"), std::string::npos) << table.out;
+    EXPECT_NE(table.out.find("time to"), std::string::npos) << table.out;
 }
 
 TEST(CommandLine, RendersAPictureOrNothing)

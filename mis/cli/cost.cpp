@@ -1,0 +1,104 @@
+#include "mis/cli/commands.h"
+#include "mis/cli/interrupt.h"
+#include "mis/cli/memory.h"
+#include "mis/cli/progress.h"
+#include "mis/cli/ready.h"
+#include "mis/cli/strategy_list.h"
+#include "mis/compare/cost_study.h"
+#include "mis/io/atomic_file.h"
+#include "mis/io/cost_json.h"
+#include "mis/io/cost_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mis::cli {
+
+namespace {
+
+constexpr std::size_t strategies_of_reference = 2;
+
+void check_options(const CostCommandOptions& options)
+{
+    check(options.stop, 1);
+    constexpr std::int64_t most = std::int64_t{1} << 24;
+    if (options.stop.spp && *options.stop.spp > most)
+        throw UsageError(
+            fmt::format("--spp: found {}; 1 to {} samples per shading point are allowed",
+                        *options.stop.spp, most));
+    check(options.output);
+}
+
+StrategyLists lists_of(const CostCommandOptions& options)
+{
+    StrategyLists lists{options.policies, options.heuristics, options.techniques, options.models,
+                        options.strategies};
+    if (!lists.heuristics && lists.has_product()) lists.heuristics = "power,brdf";
+    return lists;
+}
+
+std::vector<CostChoice> choices_of(const StrategySelection& selection,
+                                   const std::optional<std::string>& precisions)
+{
+    std::vector<CostChoice> choices;
+    for (const std::string& name :
+         names_listed("--precision", precisions, "float", {"float", "double"}))
+        for (const Strategy& strategy : selection.strategies) {
+            const CostChoice choice{strategy,
+                                    name == "double" ? Precision::in_double : Precision::in_float};
+            if (std::find(choices.begin(), choices.end(), choice) == choices.end())
+                choices.push_back(choice);
+        }
+    return choices;
+}
+
+CostOptions study_options(const CostCommandOptions& options, Progress& progress)
+{
+    CostOptions study;
+    study.seed = options.run.seed;
+    study.seconds = options.stop.seconds.value_or(study.seconds);
+    if (options.stop.spp) study.spp = static_cast<std::uint64_t>(*options.stop.spp);
+    study.adds_twins = !options.precisions && !options.strategies;
+    study.stop = &interrupt_flag();
+    study.progress = [&progress](double done, const std::string& doing) {
+        progress.show(doing, done);
+    };
+    return study;
+}
+
+}  // namespace
+
+int run_cost(const CostCommandOptions& options)
+{
+    check_options(options);
+    const StrategySelection selection = select_strategies(lists_of(options));
+    const std::vector<CostChoice> choices = choices_of(selection, options.precisions);
+    const ReadyScene ready(options.scene, options.run);
+    check_memory(ready.scene, strategies_of_reference);
+    if (!options.run.quiet)
+        for (const std::string& reason : selection.left_out)
+            fmt::print(stderr, "left out: {}\n", reason);
+    watch_for_interrupt();
+    Progress progress(!options.run.quiet);
+    CostReport report{.version = MIS_VERSION,
+                      .command = options.run.command_line,
+                      .machine = machine_description(),
+                      .instruction_set = std::string(kernels<float>().instruction_set),
+                      .seed = options.run.seed,
+                      .threads = ready.executor.threads,
+                      .scenes = {}};
+    report.scenes.push_back(
+        run_cost_study(ready.lit, choices, study_options(options, progress), ready.executor));
+    progress.clear();
+    const CostSceneReport& found = report.scenes.front();
+    if (found.shading_points == 0) throw UsageError(no_points_message(ready.scene));
+    report.partial = found.partial;
+    if (options.output.json != "-" && options.output.csv != "-")
+        write_text("-", cost_text(found, report.threads));
+    if (!options.output.json.empty()) write_text(options.output.json, cost_json(report));
+    if (!options.output.csv.empty()) write_text(options.output.csv, cost_csv(report));
+    return report.partial ? interrupted : ok;
+}
+
+}  // namespace mis::cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "mis/scene/scene.h"
+
+#include <cstddef>
+
+namespace mis::cli {
+
+/// Throws UsageError where the samples of so many strategies at every point of the scene would not
+/// fit into memory.
+void check_memory(const Scene& scene, std::size_t strategies);
+
+}  // namespace mis::cli

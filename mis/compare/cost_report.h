@@ -1,0 +1,104 @@
+#pragma once
+
+#include "mis/compare/report.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace mis {
+
+/// The number type that samples are computed in.
+enum class Precision { in_float, in_double };
+
+/// The relative errors that times are given for.
+inline constexpr std::array cost_targets{0.1, 0.05, 0.02, 0.01, 0.005};
+
+/// What a measured error is worth.
+/// below_reference: it is smaller than what the reference is known to, or than floats tell;
+/// rare_samples: fewer than `least_participation` squared errors carry it (resolved.h).
+enum class Trust { trusted, below_reference, rare_samples };
+
+/// One measured point of a curve.
+struct CostPoint {
+    std::uint64_t samples = 0;  ///< per shading point
+    Interval error;             ///< root of the mean relative squared error
+    Interval seconds;           ///< wall time on the stated threads, with preparation
+    Trust trust = Trust::trusted;
+};
+
+/// measured: between two measured points, or 1 sample is enough; extrapolated: beyond them, by
+/// error² = V/n.
+enum class Reach { measured, extrapolated, unknown };
+
+/// When a relative error is reached.
+struct TimeToError {
+    double error = 0;    ///< one of cost_targets
+    double samples = 0;  ///< per shading point, at least 1; NaN where unknown
+    Interval seconds;    ///< wall time on the stated threads, with preparation
+    Reach reach = Reach::unknown;
+};
+
+/// All that was found about one strategy in one number type.
+struct CostCurveReport {
+    Strategy strategy;
+    Precision precision = Precision::in_float;
+    std::string reason;             ///< why there are no points, in words; else empty
+    std::vector<CostPoint> points;  ///< by samples
+    Interval slope;              ///< d log(error)/d log(samples): −½ for any unbiased estimate
+    Interval slope_in_time;      ///< d log(error)/d log(seconds): steeper by what is prepared
+    double slope_p_value = 1;    ///< of −½ against the slope; below it nothing is extrapolated
+    bool fits = true;            ///< error² = V/n holds as far as was measured
+    Interval relative_variance;  ///< V: samples · error²
+    Interval seconds_per_point, seconds_per_sample;  ///< CPU
+    std::vector<TimeToError> times;                  ///< of cost_targets, in their order
+    std::uint64_t invalid_samples = 0;
+};
+
+/// Two curves cross: up to `seconds` one strategy has the smaller error, from there on the other.
+struct CrossingReport {
+    int before = 0, after = 0;  ///< indices into CostSceneReport::curves
+    Interval seconds, error;    ///< where; 95 % for all crossings of a scene together
+    bool is_extrapolated = false;
+};
+
+/// What errors are measured against.
+struct ReferenceReport {
+    bool exact = false;                ///< from quadrature (`predict`)
+    std::vector<std::string> sources;  ///< names of the strategies it is pooled from
+    std::uint64_t samples = 0;         ///< per shading point, of the first source; 0 where exact
+    double error = 0;    ///< root of its mean relative squared error; exact: a bound of it
+    bool agrees = true;  ///< its sources differ by no more than their noise
+};
+
+struct CostSceneReport {
+    std::string file, name;
+    std::size_t lights = 0;
+    int width = 0, height = 0;  ///< 0 without a camera
+    std::size_t shading_points = 0;
+    int replicates = 0;      ///< independent ones, of every point of a curve
+    std::size_t copies = 1;  ///< of every shading point in a replicate: probes are few
+    double epsilon = 0;      ///< of the relative error
+    bool partial = false;
+    double seconds = 0;  ///< wall
+    ReferenceReport reference;
+    std::vector<CostCurveReport> curves;
+    std::vector<CrossingReport> crossings;
+};
+
+struct CostReport {
+    std::string version, command, machine, instruction_set;
+    std::uint64_t seed = 1;
+    int threads = 1;
+    bool partial = false;
+    std::vector<CostSceneReport> scenes;
+};
+
+/// "power/power", "power/power in double".
+std::string name_of(const CostCurveReport& curve);
+
+/// What a scene's curves say, in words: which strategy reaches 1 % first, crossings, what does not
+/// follow −½, what could not be run.
+std::vector<std::string> sentences_of(const CostSceneReport& scene);
+
+}  // namespace mis

@@ -1,0 +1,300 @@
+#include "mis/compare/cost_study.h"
+
+#include "mis/compare/affordable.h"
+#include "mis/compare/cost_crossings.h"
+#include "mis/compare/cost_sampler.h"
+#include "mis/compare/schedule.h"
+#include "mis/compare/words.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace mis {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int replicates = 8;
+constexpr double reference_share = 0.3;         // of the time, at most
+constexpr std::uint64_t reference_factor = 64;  // its samples over the last doubling's, with --spp
+constexpr std::size_t levels_before_twins = 3;
+constexpr std::uint64_t most_samples = std::uint64_t{1} << 24;
+constexpr std::uint64_t apart = std::uint64_t{1} << 20;  // a stream that no replicate has
+
+double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// One curve under way.
+struct Curve {
+    CostMeasurements measured;
+    std::unique_ptr<CostSampler> sampler;
+    double level_seconds = 0, all_seconds = 0;  ///< wall, of the last level and of all
+    bool is_done = false;
+};
+
+/// One study under way.
+class CostStudy {
+public:
+    CostStudy(const LitScene& scene, std::span<const CostChoice> choices,
+              const CostOptions& options, const AnyExecutor& executor)
+        : options_(options), points_(find_study_points(scene, executor)),
+          judged_(cost_points(points_, scene.scene().camera.has_value())),
+          ground_{scene, points_, workspaces_, executor, options.seed, options.stop}
+    {
+        for (const CostChoice& choice : choices) add_curve(choice);
+    }
+
+    CostSceneReport run()
+    {
+        if (points_.figure_lit > 0) {
+            show(0, "finding the reference");
+            find_reference();
+            leave_out_unaffordable();
+            for (std::uint64_t samples = 1; !is_finished(); samples *= 2) {
+                if (options_.adds_twins && level_ == levels_before_twins) add_twins();
+                run_level(samples);
+            }
+        }
+        return report();
+    }
+
+private:
+    void show(double done, const std::string& doing) const
+    {
+        if (options_.progress) options_.progress(done, doing);
+    }
+
+    double seconds_left() const { return options_.seconds - seconds_since(start_); }
+
+    /// So far past the time that the level at hand is given up.
+    bool is_late() const { return !options_.spp && seconds_left() < -0.1 * options_.seconds; }
+
+    void end_all()
+    {
+        for (Curve& curve : curves_) {
+            curve.is_done = true;
+            if (curve.measured.levels.empty() && curve.measured.reason.empty())
+                curve.measured.reason = "past the budget: the first doubling was not done in time";
+        }
+    }
+
+    void add_curve(const CostChoice& choice)
+    {
+        curves_.emplace_back();
+        curves_.back().measured.strategy = choice.strategy;
+        curves_.back().measured.precision = choice.precision;
+    }
+
+    void find_reference()
+    {
+        std::optional<CostReference> exact = exact_reference(ground_);
+        ReferenceLimit limit{.seconds = reference_share * options_.seconds};
+        if (options_.spp) limit.samples = reference_factor * *options_.spp;
+        reference_ = exact ? std::move(*exact) : pooled_reference(ground_, limit);
+    }
+
+    /// Not even the first doublings within the time.
+    void leave_out_unaffordable()
+    {
+        if (options_.spp) return;
+        std::vector<Strategy> strategies;
+        for (const Curve& curve : curves_) strategies.push_back(curve.measured.strategy);
+        constexpr int first_levels = 1 + 2 + 4;
+        const std::vector<CostEstimate> costs =
+            estimate_costs(ground_, strategies, replicates * first_levels,
+                           0.6 * seconds_left() * ground_.executor.threads);
+        for (std::size_t c = 0; c < curves_.size(); ++c) {
+            if (costs[c].is_affordable) continue;
+            curves_[c].measured.reason = "past the budget: about " + duration(costs[c].seconds) +
+                                         " of CPU time for the first three doublings";
+            curves_[c].is_done = true;
+        }
+    }
+
+    bool is_finished() const
+    {
+        return ground_.is_stopped() ||
+               std::all_of(curves_.begin(), curves_.end(),
+                           [](const Curve& curve) { return curve.is_done; });
+    }
+
+    /// Every curve that is not done takes `samples` of every point, replicate by replicate.
+    void run_level(std::uint64_t samples)
+    {
+        std::vector<CostLevel> levels(curves_.size());
+        std::vector<double> seconds(curves_.size());
+        for (int r = 0; r < replicates; ++r) {
+            const std::uint64_t stream = level_ * replicates + static_cast<std::uint64_t>(r);
+            for (const std::size_t c :
+                 round_order(curves_.size(), options_.seed, static_cast<std::uint32_t>(stream))) {
+                if (ground_.is_stopped()) return;
+                if (is_late()) return end_all();
+                if (curves_[c].is_done || !is_ready(curves_[c])) continue;
+                const Clock::time_point start = Clock::now();
+                add_replicate(levels[c], curves_[c], samples, stream);
+                seconds[c] += seconds_since(start);
+                show(1 - seconds_left() / options_.seconds,
+                     std::to_string(samples) + " samples per point");
+            }
+        }
+        for (std::size_t c = 0; c < curves_.size(); ++c) {
+            if (curves_[c].is_done) continue;
+            levels[c].samples = samples;
+            curves_[c].measured.levels.push_back(std::move(levels[c]));
+            curves_[c].level_seconds = seconds[c];
+            curves_[c].all_seconds += seconds[c];
+        }
+        ++level_;
+        for (Curve& curve : curves_) end_if_done(curve, samples);
+    }
+
+    /// Makes the curve's sampler. The first touch of memory is no cost of the strategy, so one
+    /// sample counts for nothing. False where there is no time for replicates of such samples.
+    bool is_ready(Curve& curve)
+    {
+        if (curve.sampler) return true;
+        const CostMeasurements& m = curve.measured;
+        const Clock::time_point start = Clock::now();
+        curve.sampler = make_sampler(ground_, judged_, reference_, m.strategy, m.precision);
+        curve.sampler->run(1, apart);
+        const double seconds = seconds_since(start);
+        if (options_.spp || seconds * replicates < 0.5 * seconds_left()) return true;
+        curve.is_done = true;
+        curve.measured.reason = "past the budget: one sample per point takes " + duration(seconds) +
+                                ", " + std::to_string(replicates) + " times";
+        return false;
+    }
+
+    void add_replicate(CostLevel& level, Curve& curve, std::uint64_t samples, std::uint64_t stream)
+    {
+        CostReplicate replicate = curve.sampler->run(samples, stream);
+        level.squared_errors.push_back(std::move(replicate.squared_errors));
+        level.participation.sum_d2 += replicate.participation.sum_d2;
+        level.participation.sum_d4 += replicate.participation.sum_d4;
+        level.seconds.push_back(replicate.seconds);
+        curve.measured.invalid_samples += replicate.invalid;
+    }
+
+    void end_if_done(Curve& curve, std::uint64_t samples)
+    {
+        if (curve.is_done) return;
+        if (options_.spp) {
+            curve.is_done = 2 * samples > *options_.spp;
+            return;
+        }
+        const double to_come = options_.adds_twins && level_ < levels_before_twins ? 2 : 0;
+        const double active =
+            to_come + static_cast<double>(std::count_if(curves_.begin(), curves_.end(),
+                                                        [](const Curve& c) { return !c.is_done; }));
+        const bool fits = 2 * curve.level_seconds <= 0.9 * seconds_left() / active;
+        curve.is_done =
+            !fits || 2 * samples > most_samples || tells_no_more(curve.measured, reference_.error);
+    }
+
+    void add_twins()
+    {
+        std::vector<std::pair<double, const Curve*>> by_time;
+        for (const Curve& curve : curves_) {
+            if (curve.measured.levels.size() < levels_before_twins) continue;
+            const CostModel model = model_of(curve.measured, arithmetic_ground());
+            if (!std::isnan(model.log_variance.value))
+                by_time.emplace_back(log_seconds_to(model, 0.01).value, &curve);
+        }
+        if (by_time.empty()) return;
+        std::stable_sort(by_time.begin(), by_time.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        const double seconds = by_time.front().second->all_seconds;
+        std::vector<Strategy> strategies;
+        for (const auto& [_, curve] : by_time) strategies.push_back(curve->measured.strategy);
+        for (const CostChoice& twin : twins_of(strategies)) add_late(twin, seconds);
+    }
+
+    /// A curve that begins later than the others, with the levels that they have; alike: what these
+    /// took of a strategy that is like it.
+    void add_late(const CostChoice& choice, double alike)
+    {
+        for (const Curve& curve : curves_)
+            if (curve.measured.strategy == choice.strategy &&
+                curve.measured.precision == choice.precision)
+                return;
+        add_curve(choice);
+        Curve& curve = curves_.back();
+        constexpr double dearer = 2.5;  // at most, about
+        if (!options_.spp && dearer * alike > 0.8 * seconds_left()) {
+            curve.is_done = true;
+            curve.measured.reason = "past the budget: no time is left for another curve";
+        }
+        if (curve.is_done || !is_ready(curve)) return;
+        for (std::size_t k = 0; k < level_; ++k) {
+            CostLevel level;
+            level.samples = std::uint64_t{1} << k;
+            const Clock::time_point start = Clock::now();
+            for (int r = 0; r < replicates; ++r) {
+                if (ground_.is_stopped()) return;
+                add_replicate(level, curve, level.samples,
+                              k * replicates + static_cast<std::uint64_t>(r));
+            }
+            curve.level_seconds = seconds_since(start);
+            curve.all_seconds += curve.level_seconds;
+            curve.measured.levels.push_back(std::move(level));
+        }
+    }
+
+    CostGround arithmetic_ground() const
+    {
+        return {points_.figure_lit, ground_.executor.threads, reference_.error};
+    }
+
+    CostSceneReport report() const
+    {
+        const Scene& scene = ground_.scene.scene();
+        CostSceneReport report;
+        report.file = scene.file;
+        report.name = scene.name;
+        report.lights = scene.lights.size();
+        report.width = points_.shading.width;
+        report.height = points_.shading.height;
+        report.shading_points = points_.figure_points;
+        report.replicates = replicates;
+        report.copies = judged_.copies;
+        report.epsilon = reference_.scale.epsilon;
+        report.reference = reference_.report;
+        report.partial = ground_.is_stopped();
+        std::vector<CostModel> models;
+        for (const Curve& curve : curves_) {
+            report.curves.push_back(curve_report(curve.measured, arithmetic_ground()));
+            CostCurveReport& last = report.curves.back();
+            if (last.reason.empty() && last.points.empty())
+                last.reason = points_.figure_lit == 0 ? "no point can be lit: every estimate is 0"
+                                                      : "stopped before its turn";
+            models.push_back(model_of(curve.measured, arithmetic_ground()));
+            if (!last.fits) models.back().log_variance.value = std::nan("");
+        }
+        report.crossings = find_crossings(models);
+        report.seconds = seconds_since(start_);
+        return report;
+    }
+
+    const CostOptions& options_;
+    Clock::time_point start_ = Clock::now();
+    StudyPoints points_;
+    CostPoints judged_;
+    WorkspacePool<float> workspaces_;
+    StudyGround ground_;
+    CostReference reference_;
+    std::vector<Curve> curves_;
+    std::uint64_t level_ = 0;
+};
+
+}  // namespace
+
+CostSceneReport run_cost_study(const LitScene& scene, std::span<const CostChoice> choices,
+                               const CostOptions& options, const AnyExecutor& executor)
+{
+    return CostStudy(scene, choices, options, executor).run();
+}
+
+}  // namespace mis

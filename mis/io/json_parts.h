@@ -1,0 +1,53 @@
+#pragma once
+
+#include "mis/compare/report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace mis {
+
+// What the JSON of reports is made of.
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// null where it is not finite.
+inline OrderedJson json_figure(double value)
+{
+    return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
+}
+
+inline OrderedJson json_text_or_null(const std::string& text)
+{
+    return text.empty() ? OrderedJson(nullptr) : OrderedJson(text);
+}
+
+inline OrderedJson json_interval(const Interval& x)
+{
+    return {{"value", json_figure(x.value)},
+            {"low", json_figure(x.low)},
+            {"high", json_figure(x.high)}};
+}
+
+/// A strategy, as data; "counts" are draws per sample, light and BSDF.
+inline OrderedJson json_identity(const Strategy& s)
+{
+    return {{"name", name_of(s)},
+            {"policy", json_text_or_null(s.policy)},
+            {"heuristic", json_text_or_null(s.heuristic)},
+            {"technique", s.technique},
+            {"model", s.model == Model::multi ? "multi" : "one-sample"},
+            {"counts", s.chooses_light() ? s.heuristic == "light" ? OrderedJson{s.counts[0], 0}
+                                                                  : OrderedJson(s.counts)
+                                         : OrderedJson{0, 1}}};
+}
+
+/// Indented, with a line feed at the end. A command line or a file name may hold bytes that are not
+/// UTF-8; JSON cannot.
+inline std::string json_text(const OrderedJson& json)
+{
+    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
+}
+
+}  // namespace mis

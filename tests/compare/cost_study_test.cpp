@@ -1,0 +1,177 @@
+#include "mis/compare/cost_study.h"
+
+#include "mis/compare/cost_reference.h"
+#include "mis/predict/predict.h"
+#include "mis/run/serial.h"
+#include "mis/run/tbb.h"
+#include "mis/trace/analytic.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mis {
+namespace {
+
+const AnyExecutor serial = any_executor(SerialExecutor{});
+
+std::vector<CostChoice> named(std::initializer_list<const char*> names)
+{
+    std::vector<CostChoice> choices;
+    for (const char* name : names) choices.push_back({parse_strategy(name)});
+    return choices;
+}
+
+Scene two_probes()
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    scene.probes.push_back(scene.probes[0]);
+    scene.probes[1].position = {0.5, 0, -0.3};
+    return scene;
+}
+
+/// A floor, with a ball on it, under the same lights: 16 x 12 pixels.
+Scene small_picture()
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {16, 12}};
+    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
+    scene.surfaces.push_back({SphereSurface{{0.5, 0.6, 0.5}, 0.3}, 0});
+    return scene;
+}
+
+CostSceneReport study_of(const Scene& scene, const std::vector<CostChoice>& choices,
+                         const CostOptions& options, const AnyExecutor& executor = serial)
+{
+    const AnalyticTracer tracer(scene);
+    const LitScene lit(scene, &tracer, called_for(scene));
+    return run_cost_study(lit, choices, options, executor);
+}
+
+TEST(CostStudy, FindsTheVarianceThatQuadratureSays)
+{
+    const Scene scene = two_probes();
+    const std::vector<CostChoice> choices =
+        named({"uniform/power", "power/light", "solid-angle/balance", "uniform/power@4+1"});
+    const CostSceneReport report = study_of(scene, choices, {.spp = 32});
+    EXPECT_TRUE(report.reference.exact);
+    EXPECT_LT(report.reference.error, 1e-6);
+    EXPECT_GT(report.copies, 1U);
+    for (std::size_t s = 0; s < choices.size(); ++s) {
+        double expected = 0;
+        for (const Probe& probe : scene.probes) {
+            const Predicted p = predict(scene, probe, std::span(&choices[s].strategy, 1)).front();
+            expected += 0.5 * p.variance / (p.mean * p.mean);
+        }
+        const CostCurveReport& curve = report.curves[s];
+        // 95 % intervals; the seed is fixed. Twice as wide, so that four of them hold surely.
+        const double half_width = curve.relative_variance.high - curve.relative_variance.value;
+        EXPECT_NEAR(curve.relative_variance.value, expected, 2 * half_width) << name_of(curve);
+        EXPECT_LT(half_width, 0.1 * expected) << name_of(curve);
+        EXPECT_TRUE(curve.fits) << name_of(curve);
+        ASSERT_EQ(curve.points.size(), 6U);
+        EXPECT_EQ(curve.points[5].samples, 32U);
+        EXPECT_NEAR(curve.points[0].error.value, std::sqrt(expected), 0.1 * std::sqrt(expected));
+    }
+}
+
+TEST(CostStudy, MeasuresTheSameAgainstAPooledReferenceAsAgainstTheExactOne)
+{
+    const Scene scene = two_probes();
+    const LitScene lit(scene, nullptr, called_for(scene));
+    const StudyPoints points = find_study_points(lit, serial);
+    WorkspacePool<float> workspaces;
+    const StudyGround ground{lit, points, workspaces, serial};
+    const auto exact = exact_reference(ground);
+    ASSERT_TRUE(exact);
+    const CostReference pooled = pooled_reference(ground, {.samples = 20000});
+    EXPECT_TRUE(pooled.report.agrees);
+    EXPECT_EQ(pooled.report.samples, 20000U);
+    ASSERT_EQ(pooled.means.size(), 2U);
+    for (std::size_t p = 0; p < 2; ++p)
+        EXPECT_NEAR(pooled.means[p], exact->means[p], 5 * pooled.report.error * exact->means[p]);
+    EXPECT_GT(pooled.report.error, 1e-4);
+    EXPECT_LT(pooled.report.error, 1e-2);
+    // And it is as far off as it says: the mean of many.
+    double squares = 0, said = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const StudyGround other{lit, points, workspaces, serial, seed};
+        const CostReference r = pooled_reference(other, {.samples = 64});
+        for (std::size_t p = 0; p < 2; ++p)
+            squares += 0.005 * std::pow(r.means[p] / exact->means[p] - 1, 2);
+        said += 0.01 * r.error.squared;
+    }
+    EXPECT_NEAR(squares / said, 1, 0.4);  // 200 squares: a standard error of 0.1
+}
+
+TEST(CostStudy, HasTheSameFiguresOnAnyNumberOfThreads)
+{
+    const Scene scene = small_picture();
+    std::vector<CostChoice> choices =
+        named({"uniform/power", "power/light", "solid-angle/balance"});
+    choices.push_back({choices[0].strategy, Precision::in_double});
+    const CostSceneReport one = study_of(scene, choices, {.spp = 8});
+    const CostSceneReport three =
+        study_of(scene, choices, {.spp = 8}, any_executor(TbbExecutor(3)));
+    EXPECT_FALSE(one.reference.exact);
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+        ASSERT_EQ(one.curves[c].points.size(), 4U);
+        for (std::size_t k = 0; k < 4; ++k) {
+            EXPECT_EQ(one.curves[c].points[k].error.value, three.curves[c].points[k].error.value);
+            EXPECT_EQ(one.curves[c].points[k].error.high, three.curves[c].points[k].error.high);
+        }
+        EXPECT_EQ(one.curves[c].slope.value, three.curves[c].slope.value);
+    }
+    // Float and double err alike, but not equally.
+    EXPECT_NEAR(one.curves[3].points[0].error.value / one.curves[0].points[0].error.value, 1, 1e-3);
+    EXPECT_NE(one.curves[3].points[0].error.value, one.curves[0].points[0].error.value);
+}
+
+TEST(CostStudy, AddsTheBestInDoubleAndWithFourLightDraws)
+{
+    const CostSceneReport report =
+        study_of(small_picture(), named({"uniform/power"}), {.spp = 8, .adds_twins = true});
+    ASSERT_EQ(report.curves.size(), 3U);
+    EXPECT_EQ(name_of(report.curves[1]), "uniform/power in double");
+    EXPECT_EQ(name_of(report.curves[2]), "uniform/power@4+1");
+    for (const CostCurveReport& curve : report.curves) EXPECT_EQ(curve.points.size(), 4U);
+    EXPECT_LT(report.curves[2].relative_variance.value,
+              0.9 * report.curves[0].relative_variance.value);
+}
+
+TEST(CostChoices, AreTheFirstInDoubleAndTheFirstThatMixesWithFourLightDraws)
+{
+    const std::vector<Strategy> by_time{parse_strategy("brdf"), parse_strategy("power/light"),
+                                        parse_strategy("power/power")};
+    const std::vector<CostChoice> twins = twins_of(by_time);
+    ASSERT_EQ(twins.size(), 2U);
+    EXPECT_EQ(twins[0], (CostChoice{by_time[0], Precision::in_double}));
+    EXPECT_EQ(twins[1], (CostChoice{parse_strategy("power/power@4+1")}));
+    EXPECT_TRUE(twins_of({}).empty());
+    EXPECT_EQ(twins_of(std::span(by_time).first(2)).size(), 1U);
+}
+
+TEST(CostStudy, EndsWithWhatThereIsWhenStopped)
+{
+    std::atomic<bool> stop = false;
+    CostOptions options{.spp = 64, .stop = &stop};
+    options.progress = [&](double, const std::string& doing) {
+        stop = stop || doing.rfind("8 samples", 0) == 0;
+    };
+    const CostSceneReport report = study_of(small_picture(), named({"uniform/power"}), options);
+    EXPECT_TRUE(report.partial);
+    EXPECT_EQ(report.curves[0].points.size(), 3U);  // 1, 2 and 4
+}
+
+TEST(CostStudy, SaysSoWhereNothingIsLit)
+{
+    Scene scene = two_probes();
+    for (Probe& probe : scene.probes) probe.outgoing = -probe.outgoing;  // seen from below
+    const CostSceneReport report = study_of(scene, named({"uniform/power"}), {.spp = 4});
+    ASSERT_EQ(report.curves.size(), 1U);
+    EXPECT_NE(report.curves[0].reason.find("no point can be lit"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mis

@@ -1,0 +1,156 @@
+#include "mis/compare/cost.h"
+
+#include "mis/compare/cost_fit.h"
+#include "tests/compare/synthetic_cost.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mis {
+namespace {
+
+constexpr CostGround ground{.points = 1000, .threads = 2, .reference = {}};
+
+bool holds(const Interval& x, double value) { return x.low <= value && value <= x.high; }
+
+const TimeToError& time_to(const CostCurveReport& curve, double error)
+{
+    for (const TimeToError& t : curve.times)
+        if (t.error == error) return t;
+    throw std::logic_error("no such target");
+}
+
+TEST(Cost, FindsTheSlopeOfMinusOneHalf)
+{
+    const CostCurveReport curve = curve_report(measured({}), ground);
+    EXPECT_NEAR(curve.slope.value, -0.5, 0.01);
+    EXPECT_TRUE(holds(curve.slope, -0.5));
+    EXPECT_TRUE(curve.fits);
+    EXPECT_TRUE(holds(curve.relative_variance, 0.01));
+    EXPECT_NEAR(curve.relative_variance.value, 0.01, 2e-4);
+}
+
+TEST(Cost, SlopeIntervalsMissOneTimeInTwenty)
+{
+    constexpr int runs = 400;
+    int misses = 0, false_alarms = 0;
+    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+        const CostCurveReport curve = curve_report(measured({.noise = 0.1, .seed = seed}), ground);
+        misses += holds(curve.slope, -0.5) ? 0 : 1;
+        false_alarms += curve.fits ? 0 : 1;
+    }
+    EXPECT_GE(misses, 5);
+    EXPECT_LE(misses, 45);  // 20 expected; seeds are fixed
+    EXPECT_LE(false_alarms, 4);
+}
+
+TEST(Cost, SaysThatABiasedStrategyFallsTooSlowlyAndExtrapolatesNothingOfIt)
+{
+    const CostCurveReport curve = curve_report(measured({.bias = 0.02}), ground);
+    EXPECT_GT(curve.slope.low, -0.5);
+    EXPECT_FALSE(curve.fits);
+    EXPECT_EQ(time_to(curve, 0.05).reach, Reach::measured);
+    EXPECT_EQ(time_to(curve, 0.01).reach, Reach::unknown);
+    EXPECT_TRUE(std::isnan(time_to(curve, 0.01).seconds.value));
+}
+
+TEST(Cost, MeasuresTimesBetweenLevelsAndMarksThoseBeyond)
+{
+    // error² = 0.01/n up to 64 samples: down to 1.25 %.
+    const SyntheticCurve c{.prepare = 3e-7};
+    const CostCurveReport curve = curve_report(measured(c), ground);
+    const auto expected = [&](double error) {
+        return 500 * (c.prepare + c.variance / (error * error) * c.per_sample);
+    };
+    for (const double error : {0.05, 0.02}) {
+        EXPECT_EQ(time_to(curve, error).reach, Reach::measured) << error;
+        EXPECT_NEAR(time_to(curve, error).samples, 0.01 / (error * error), 0.5);
+        EXPECT_TRUE(holds(time_to(curve, error).seconds, expected(error))) << error;
+    }
+    for (const double error : {0.01, 0.005}) {
+        EXPECT_EQ(time_to(curve, error).reach, Reach::extrapolated) << error;
+        EXPECT_NEAR(time_to(curve, error).seconds.value / expected(error), 1, 0.03);
+        EXPECT_TRUE(holds(time_to(curve, error).seconds, expected(error))) << error;
+    }
+}
+
+TEST(Cost, NeedsAtLeastOneSample)
+{
+    const SyntheticCurve c{.variance = 1e-4, .prepare = 3e-7};  // 1 % at once
+    const TimeToError at_once = time_to(curve_report(measured(c), ground), 0.1);
+    EXPECT_EQ(at_once.reach, Reach::measured);
+    EXPECT_EQ(at_once.samples, 1);
+    EXPECT_NEAR(at_once.seconds.value, 500 * 4e-7, 500 * 4e-9);
+}
+
+TEST(Cost, TakesTheReferencesErrorOffAndTrustsNothingBelowIt)
+{
+    constexpr double squared = 1e-3;  // error² falls below it after 10 samples
+    const CostGround noisy{.points = 1000,
+                           .threads = 2,
+                           .reference = {.squared = squared, .se = 1e-6, .floor = squared}};
+    const CostCurveReport curve = curve_report(measured({.reference = squared}), noisy);
+    EXPECT_EQ(curve.points[3].trust, Trust::trusted);          // 8 samples
+    EXPECT_EQ(curve.points[4].trust, Trust::below_reference);  // 16
+    EXPECT_TRUE(holds(curve.points[2].error, 0.05));
+    EXPECT_EQ(curve.points[6].error.low, 0);  // an upper bound alone
+    EXPECT_GE(curve.points[6].error.high, std::sqrt(0.01 / 64));
+    EXPECT_NEAR(curve.slope.value, -0.5, 0.03);
+    EXPECT_TRUE(curve.fits);
+    EXPECT_NEAR(curve.relative_variance.value, 0.01, 5e-4);
+    EXPECT_EQ(time_to(curve, 0.02).reach, Reach::extrapolated);
+}
+
+TEST(Cost, FitsNothingToWhatRareSamplesCarry)
+{
+    const CostCurveReport curve = curve_report(measured({.carriers = 10}), ground);
+    for (const CostPoint& point : curve.points) EXPECT_EQ(point.trust, Trust::rare_samples);
+    EXPECT_TRUE(std::isnan(curve.slope.value));
+    for (const TimeToError& t : curve.times) EXPECT_EQ(t.reach, Reach::unknown);
+}
+
+TEST(Cost, SplitsTimeIntoWhatAPointSharesAndSamples)
+{
+    const CostMeasurements m = measured({.prepare = 4e-7, .per_sample = 2e-7, .clock_noise = 0});
+    const TimeObservation time = fitted_time(m.levels, 3);
+    EXPECT_NEAR(time.seconds_per_point, 4e-7, 1e-15);
+    EXPECT_NEAR(time.seconds_per_sample, 2e-7, 1e-15);
+    const TimeObservation one = fitted_time(std::span(m.levels).first(1), 3);
+    EXPECT_EQ(one.seconds_per_point, 0);
+    EXPECT_NEAR(one.seconds_per_sample, 6e-7, 1e-15);
+}
+
+TEST(Cost, IsSteeperInTimeWherePreparationIsLong)
+{
+    const CostCurveReport none = curve_report(measured({}), ground),
+                          much = curve_report(measured({.prepare = 1e-6}), ground);
+    EXPECT_NEAR(none.slope_in_time.value, -0.5, 0.02);
+    EXPECT_LT(much.slope_in_time.high, -0.55);
+    EXPECT_NEAR(much.slope.value, -0.5, 0.01);
+}
+
+TEST(Cost, EndsOnceTheSmallestErrorIsPassedOrTheReferenceTellsNoMore)
+{
+    const ReferenceError none, noisy{.squared = 1e-3, .se = 0, .floor = 1e-3};
+    const SyntheticCurve precise{.variance = 1e-4};  // 0.5 % after 4 samples
+    EXPECT_FALSE(tells_no_more(measured({}), none));
+    EXPECT_TRUE(tells_no_more(measured(precise), none));
+    SyntheticCurve short_one = precise;
+    short_one.levels = 4;
+    EXPECT_FALSE(tells_no_more(measured(short_one), none));
+    EXPECT_TRUE(tells_no_more(measured({.reference = 1e-3}), noisy));
+    EXPECT_FALSE(tells_no_more(measured({.reference = 1e-3, .levels = 5}), noisy));  // one alone
+}
+
+TEST(Cost, HasNoFiguresWithoutLevels)
+{
+    CostMeasurements none{.strategy = parse_strategy("brdf"), .reason = "past the budget"};
+    const CostCurveReport curve = curve_report(none, ground);
+    EXPECT_TRUE(curve.points.empty());
+    EXPECT_TRUE(std::isnan(curve.seconds_per_sample.value));
+    for (const TimeToError& t : curve.times) EXPECT_EQ(t.reach, Reach::unknown);
+}
+
+}  // namespace
+}  // namespace mis
