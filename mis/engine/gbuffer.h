@@ -31,8 +31,8 @@ struct GBuffer {
     int first_row = 0, rows = 0;       ///< the band of the picture that was found
     std::vector<ShadingPoint> points;  ///< in the order of the tiles
     std::vector<Tile> tiles;           ///< points that can be lit
-    std::vector<std::uint32_t>
-        dark;  ///< ids of points that see no light: inside one, seen from below, or above all of them
+    std::vector<std::uint32_t> dark;   ///< ids of points that see no light: inside one, seen from
+                                       ///< below, or above all of them
     std::vector<Background> background;
 };
 

@@ -48,6 +48,16 @@ struct TestScene {
           probes(probe_points(scene, lit.lights(), surfaces))
     {
     }
+    /// The only probe as a point to be sampled all the same, where no light can reach it.
+    void sample_the_dark()
+    {
+        if (!probes.tiles.empty()) return;
+        const Probe& probe = scene.probes.at(0);
+        probes.points = {{probe.position, vec_cast<float>(probe.normal),
+                          vec_cast<float>(probe.outgoing), Vec3<float>(0), 0}};
+        probes.tiles = {{0, 1, probe.material, probe.position}};
+        probes.dark.clear();
+    }
     TestScene(const TestScene&) = delete;
     TestScene& operator=(const TestScene&) = delete;
 };

@@ -35,6 +35,37 @@ struct Shading {
     }
 };
 
+/// Dark only where it is certain: a light that touches the tangent plane may still be seen.
+TEST(GBuffer, AProbeThatFacesNoLightIsDark)
+{
+    Light light = three_lights_apart().front();
+    light.center = {2, 0, 0.1};
+    for (const double height : {-3.0, -1.5, -1.0001, -1.0, -0.9999, 0.0, 2.0}) {
+        light.center.y = height * light.radius;
+        const Scene scene = probe_under({light}, grey_floor());
+        const LitScene lit(scene, nullptr, called_for(scene));
+        const GBuffer probes = probe_points(scene, lit.lights(), nullptr);
+        EXPECT_EQ(probes.dark.size(), height < -1.00005 ? 1U : 0U) << height;
+    }
+}
+
+/// A view between two places that lie closer than a square root can see.
+TEST(GBuffer, ACameraAtATinyDistanceFromItsTargetLooksThere)
+{
+    Scene scene = floor_and_lamp();
+    scene.surfaces = {{Quad{{-4, -1, -4}, {Vec3<double>{0, 0, 8}, Vec3<double>{8, 0, 0}}}, 0}};
+    scene.camera->position = {0, 1e-200, 0};
+    scene.camera->target = {0, 0, 0};
+    scene.camera->up = {1, 0, 0};
+    const AnalyticTracer tracer(scene);
+    const LitScene lit(scene, &tracer, called_for(scene));
+    const GBuffer found =
+        find_shading_points(scene, lit.lights(), &tracer, 0, scene.camera->resolution[1],
+                            any_executor(SerialExecutor{}));
+    EXPECT_EQ(found.points.size() + found.dark.size(), 70U * 50U);
+    for (const ShadingPoint& p : found.points) EXPECT_EQ(p.x.y, -1);
+}
+
 TEST(GBuffer, EveryPixelIsAPointOrDarkOrBackgroundOnce)
 {
     const Shading shading;

@@ -126,7 +126,8 @@ TEST(EveryStrategy, Is0AndNeverInvalidUnderBlackLightsAndUnderNone)
     Lights black = three_lights_apart();
     for (Light& light : black) light.radiance_radius = Vec3<float>(0);
     for (const Lights& lights : {black, Lights{}}) {
-        const TestScene test(probe_under(lights, grey_floor()));
+        TestScene test(probe_under(lights, grey_floor()));
+        test.sample_the_dark();
         for (const Strategy& s : every_strategy()) {
             const Outcome outcome = run_probe<float>(test, s, kernels<float>(), 300);
             EXPECT_EQ(outcome.result.luminance.mean, 0) << name_of(s);
@@ -141,7 +142,8 @@ TEST(EveryStrategy, Is0UnderLightsBelowTheHorizon)
     Lights lights = three_lights_apart();
     for (Light& light : lights) light.center.y = -light.center.y;
     for (const char* type : {"lambert", "blinn", "ggx"}) {
-        const TestScene test(probe_under(lights, glossy(type)));
+        TestScene test(probe_under(lights, glossy(type)));
+        test.sample_the_dark();
         for (const Strategy& s : every_strategy()) {
             const Outcome outcome = run_probe<float>(test, s, kernels<float>(), 300);
             EXPECT_EQ(outcome.result.luminance.mean, 0) << name_of(s);
