@@ -186,7 +186,12 @@ const BadMesh bad_meshes[] = {
      "\"property floyt x\" in line 4"},
     {"PlyCountImpossible", "a.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\n" + ply_face,
      "element vertex 4000000000"},
-    {"PlyCut", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n", "face without vertices"},
+    {"PlyCut", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n", "ends early: 3 of 4 lines"},
+    {"PlyCutBinary", "a.ply",
+     "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float "
+     "y\nproperty float z\n" +
+         ply_face + std::string(40, '\0'),
+     "ends early: 40 of at least 49 bytes"},
     {"PlyIndexOutOfRange", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n",
      "out of range"},
     {"PlyIndexNegative", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n",
