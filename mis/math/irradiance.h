@@ -108,7 +108,7 @@ template <class T> MIS_INLINE T sunken_irradiance_over_sin2(const TiltedCap<T>& 
 /// Source: Snyder 1996, "Area Light Sources for Real-Time Graphics"; docs/theory.md, eqs. 48 to 51.
 template <class T> MIS_INLINE T irradiance_over_sin2(const TiltedCap<T>& cap)
 {
-    const T above = number<T>(pi<T>) * max_of(cap.cos_beta, number<T>(0));
+    const T above = T(pi<T>) * max_of(cap.cos_beta, number<T>(0));
     const T z2 = detail::chord2(cap);
     if (!any_lane(z2 > number<T>(0))) return above;
     return above + detail::sunken_irradiance_over_sin2(cap, z2);
