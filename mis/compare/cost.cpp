@@ -190,13 +190,9 @@ CostCurveReport curve_report(const CostMeasurements& curve, const CostGround& gr
     report.fits = !(report.slope_p_value < least_fit_p);
     if (!std::isnan(model.log_variance.value))
         report.relative_variance = interval_of(model.log_variance);
-    std::vector<double> per_point, per_sample;
-    for (const TimeObservation& time : model.times) {
-        per_point.push_back(time.seconds_per_point);
-        per_sample.push_back(time.seconds_per_sample);
-    }
-    report.seconds_per_point = interval_of_median(per_point);
-    report.seconds_per_sample = interval_of_median(per_sample);
+    const TimeIntervals times = intervals_of(model.times);
+    report.seconds_per_point = times.per_point;
+    report.seconds_per_sample = times.per_sample;
     for (const double error : cost_targets)
         report.times.push_back(time_to(error, curve, errors, ground, model, report.fits));
     return report;

@@ -49,13 +49,9 @@ PointFigures point_figures(const Moments& moments)
 void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figures& figures)
 {
     report.timed_rounds = static_cast<int>(s.times.size());
-    std::vector<double> per_sample, per_point;
-    for (const TimeObservation& time : s.times) {
-        per_sample.push_back(time.seconds_per_sample);
-        per_point.push_back(time.seconds_per_point);
-    }
-    report.seconds_per_sample = interval_of_median(per_sample);
-    report.seconds_per_point = interval_of_median(per_point);
+    const TimeIntervals times = intervals_of(s.times);
+    report.seconds_per_sample = times.per_sample;
+    report.seconds_per_point = times.per_point;
     const double samples = static_cast<double>(std::max<std::uint64_t>(s.pooled.samples, 1));
     for (const auto& [stage, seconds] : s.stage_seconds)
         report.stage_seconds[stage] = seconds / samples;
@@ -71,6 +67,16 @@ void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figu
 }
 
 }  // namespace
+
+TimeIntervals intervals_of(std::span<const TimeObservation> times)
+{
+    std::vector<double> per_point, per_sample;
+    for (const TimeObservation& time : times) {
+        per_point.push_back(time.seconds_per_point);
+        per_sample.push_back(time.seconds_per_sample);
+    }
+    return {interval_of_median(per_point), interval_of_median(per_sample)};
+}
 
 Figures figures_of(const StrategyMeasurements& s, double at)
 {

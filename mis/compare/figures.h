@@ -27,6 +27,12 @@ struct Figures {
     double sampling_share = 0;  ///< d log(seconds to 1 %) / d log(relative variance)
 };
 
+/// Medians over observations of what a point takes once and what a sample takes, CPU seconds.
+struct TimeIntervals {
+    Interval per_point, per_sample;
+};
+TimeIntervals intervals_of(std::span<const TimeObservation> times);
+
 /// at: samples per point that a point's preparation is shared by.
 Figures figures_of(const StrategyMeasurements& strategy, double at);
 

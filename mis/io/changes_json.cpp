@@ -106,7 +106,7 @@ std::string changes_json(const Changes& changes, const ChangesHeader& header)
               {"remarks", changes.remarks},
               {"scenes", Json::array()}};
     for (const SceneChange& scene : changes.scenes) json["scenes"].push_back(json_of(scene));
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 std::string changes_csv(const Changes& changes)
