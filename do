@@ -119,7 +119,10 @@ case ${1-} in
         for reader in scene table report; do
             mkdir -p "$corpus/$reader"
             case $reader in
-                scene) cp "$root"/scenes/*.json "$root"/tests/fuzz/scene/*.json "$corpus/scene/" ;;
+                scene)
+                    cp "$root"/scenes/*.json "$corpus/scene/"
+                    "$root/build/fuzz/tests/fuzz/scene_seeds" "$corpus/scene"
+                    ;;
                 report) cp "$root"/tests/fuzz/report.json "$corpus/report/" ;;
                 table) cp "$root"/scenes/*.csv "$corpus/table/" 2>/dev/null || printf 'x,y,z,radius,r,g,b\n0,1,2,.5,1,1,1\n' >"$corpus/table/one.csv" ;;
             esac

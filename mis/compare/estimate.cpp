@@ -124,7 +124,8 @@ LogEstimate median(std::vector<double> values)
 LogEstimate log_median(const std::vector<double>& values)
 {
     const LogEstimate linear = median(values);
-    return {linear.value > 0 ? std::log(linear.value) : nan, linear.se / linear.value, linear.dof};
+    if (!(linear.value > 0)) return {nan, nan, linear.dof};
+    return {std::log(linear.value), linear.se / linear.value, linear.dof};
 }
 
 Interval interval_of_median(std::vector<double> values)

@@ -1,6 +1,7 @@
 #include "mis/compare/overall.h"
 
 #include "mis/compare/estimate.h"
+#include "mis/math/stable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -45,7 +46,10 @@ bool is_ranked_in(const SceneReport& scene, const std::string& name)
     return i >= 0 && scene.strategies[i].status == Status::ranked;
 }
 
-Interval turned_over(const Interval& x) { return {1 / x.value, 1 / x.high, 1 / x.low}; }
+Interval turned_over(const Interval& x)
+{
+    return {inverse(x.value), inverse(x.high), inverse(x.low)};
+}
 
 /// The figures of strategy i over those of strategy j: variance, variance × time, time to 1 %.
 struct Ratios {

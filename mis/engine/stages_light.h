@@ -111,12 +111,13 @@ void weigh_light(const TileJob<T>& job, Batch<T>& batch)
     const V light_count(job.light_count), bsdf_count(job.bsdf_count), zero = number<V>(0);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const V probability = lanes_of<V>(batch.probability, row);
+        const auto counts = probability > zero;
+        const V chosen = select(counts, probability, number<V>(1));
         const std::array<V, 2> density{V(light_count * lanes_of<V>(batch.light_pdf, row)),
                                        V(bsdf_count * lanes_of<V>(batch.bsdf_pdf, row))};
-        const V weight = Heuristic::weight(density, 0) / (light_count * probability);
+        const V weight = Heuristic::weight(density, 0) / (light_count * chosen);
         const Vec3<V> share =
             batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) * weight;
-        const auto counts = probability > zero;
         batch.contribution.set(row,
                                Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
                                        select(counts, share.z, zero)));

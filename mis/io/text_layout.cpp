@@ -60,6 +60,7 @@ std::string short_number(double value)
 
 std::string short_interval(const Interval& x)
 {
+    if (!(x.value > 0)) return short_number(x.value);
     const double error = std::max(x.high - x.value, x.value - x.low) / x.value;
     if (!std::isfinite(error) || error <= 0) return short_number(x.value);
     return fmt::format("{}±{:.0f}%", short_number(x.value), std::ceil(100 * error - 1e-9));

@@ -31,10 +31,10 @@ struct Moments {
 
     /// n·M4/M2²: 3 for normal numbers, 1/p for a rare event of probability p; NaN where all are
     /// equal.
-    double kurtosis() const { return m2 > 0 ? number() * m4 / (m2 * m2) : nan(); }
+    double kurtosis() const { return m2 > 0 ? number() * (m4 / m2) / m2 : nan(); }
 
     /// How many of the numbers carry the variance: (Σd²)²/Σd⁴, in [1, n]; 0 where all are equal.
-    double effective_count() const { return m4 > 0 ? m2 * m2 / m4 : 0; }
+    double effective_count() const { return m4 > 0 ? m2 / m4 * m2 : 0; }
 
     /// Standard error of the mean; NaN for fewer than two numbers.
     double mean_se() const { return std::sqrt(variance() / number()); }

@@ -2,6 +2,8 @@
 
 #include "mis/math/vec.h"
 
+#include <limits>
+
 namespace mis {
 
 // Formulas that lose digits when written as in the textbook. What is small (1 − cos θ, sin²θ, d² −
@@ -15,6 +17,10 @@ inline constexpr Scalar<T> two_pi = static_cast<Scalar<T>>(6.2831853071795864769
 template <class T> MIS_INLINE T number(double value) { return T(static_cast<Scalar<T>>(value)); }
 
 template <class T> MIS_INLINE T square(const T& x) { return x * x; }
+
+/// 1/x of a number that is not negative, infinite where it is 0: for densities and ratios of which
+/// that is meant.
+inline double inverse(double x) { return x == 0 ? std::numeric_limits<double>::infinity() : 1 / x; }
 
 /// cos^m θ from sin²θ and cos²θ, each given with its own full precision: exp(m/2 · ln cos²θ), where
 /// ln cos²θ is taken as log1p(−sin²θ) near the axis. m = 0 gives 1 everywhere. Error: 4 ulp · (1 +

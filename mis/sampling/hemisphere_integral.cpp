@@ -1,6 +1,7 @@
 #include "mis/sampling/hemisphere_integral.h"
 
 #include "mis/math/gauss_legendre.h"
+#include "mis/math/stable.h"
 #include "mis/sampling/random.h"
 #include "mis/sampling/warp.h"
 
@@ -18,7 +19,7 @@ constexpr double ln_sqrt2 = 0.34657359027997265471;
 HemisphereDraw draw_angles(const Vec2<double>& u)
 {
     const double theta = pi1 / 2 * u.x;  // φ = 2π u.y does not matter here
-    return {std::cos(theta), 1 / (pi1 * pi1 * std::sin(theta))};
+    return {std::cos(theta), inverse(pi1 * pi1 * std::sin(theta))};
 }
 
 HemisphereDraw draw_blinn(const Vec2<double>& u, double m)

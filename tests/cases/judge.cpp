@@ -35,7 +35,7 @@ Room room_of_mean(double n, double kurtosis, double relative_variance, double p)
 {
     // Of numbers that are never negative, the mean is not far too low: P ≤ exp(−n t²/(2 E[X²])), as
     // e^{−x} ≤ 1 − x + x²/2. For the other side the fourth moment is all that is known.
-    const double any_below = std::sqrt(-2 * std::log(p) * (1 + 1 / relative_variance));
+    const double any_below = std::sqrt(-2 * std::log(p) * (1 + inverse(relative_variance)));
     const double any_above = std::pow((3 + kurtosis / n) / p, 0.25);
     if (n < mean_needs * kurtosis) return {std::min(any_below, any_above), any_above};
     const double z = skewed_z_bound(p, kurtosis / n);
