@@ -366,7 +366,8 @@ MaybeProblem check_emission(double radius, Emission emission, const Vec3<double>
 
 MaybeProblem check_kept_light(const Light& light)
 {
-    return find_light_problem(light.center, light.radius, Emission::radiance, radiance(light));
+    const Vec3<double> emitted = light.radius > 0 ? radiance(light) : Vec3<double>(0);
+    return find_light_problem(light.center, light.radius, Emission::radiance, emitted);
 }
 
 }  // namespace
