@@ -1,0 +1,34 @@
+#pragma once
+
+#include "mis/bsdf/bsdf.h"
+#include "mis/math/frame.h"
+
+namespace mis {
+
+/// A BSDF of the registry at a point: directions in scene axes, one direction to the viewer. It is
+/// a HostBsdf (engine/direct.h), and an example of one.
+template <class B, class T> class FramedBsdf {
+public:
+    /// n, wo: unit; n·wo > 0. Keeps a reference to the BSDF.
+    FramedBsdf(const B& bsdf, const Vec3<T>& n, const Vec3<T>& wo)
+        : bsdf_(&bsdf), frame_(frame_around(n)), wo_(frame_.to_local(wo))
+    {
+    }
+    Vec3<T> evaluate(const Vec3<T>& wi) const { return value(wi).f; }
+    T pdf(const Vec3<T>& wi) const { return value(wi).pdf; }
+    Vec3<T> sample(const T& lobe, const Vec2<T>& u) const
+    {
+        return frame_.to_world(bsdf_->sample(wo_, lobe, u));
+    }
+
+private:
+    BsdfValue<T> value(const Vec3<T>& wi) const
+    {
+        return bsdf_->evaluate(wo_, frame_.to_local(wi));
+    }
+    const B* bsdf_;
+    Frame<T> frame_;
+    Vec3<T> wo_;  ///< in the frame
+};
+
+}  // namespace mis

@@ -1,0 +1,239 @@
+#pragma once
+
+#include "mis/engine/direct_lights.h"
+#include "mis/heuristic/heuristic.h"
+#include "mis/technique/technique.h"
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+
+namespace mis {
+
+// Direct lighting at one point, for a host's own loop: his rays, his BSDF, his random numbers. The
+// same estimate that the pipeline makes of many points, composed by templates; in double, with the
+// pipeline's numbers, the two agree to rounding (direct_test.cpp). Nothing here allocates, throws
+// or keeps state.
+
+/// The host's BSDF at the point, for one direction to the viewer. Directions are unit vectors in
+/// scene axes. evaluate: f in sr⁻¹, RGB, without the cosine. pdf: density of sample(), per
+/// steradian. sample: from a number for the lobe and two for the direction, in [0, 1); a direction
+/// below the horizon is a lost draw and contributes 0.
+// clang-format off
+template <class B, class T>
+concept HostBsdf = requires(const B& bsdf, const Vec3<T>& wi, const T& lobe, const Vec2<T>& u) {
+    { bsdf.evaluate(wi) } -> std::convertible_to<Vec3<T>>;
+    { bsdf.pdf(wi) } -> std::convertible_to<T>;
+    { bsdf.sample(lobe, u) } -> std::convertible_to<Vec3<T>>;
+};
+
+/// The host's shadow ray: does a surface stand before `distance` (scene units) along wi from the
+/// point? Lights are none of its business: they hide one another without it.
+template <class O, class T>
+concept Occluder = requires(const O& is_occluded, const Vec3<T>& wi, const T& distance) {
+    { is_occluded(wi, distance) } -> std::convertible_to<bool>;
+};
+// clang-format on
+
+/// The random numbers of one light draw and one BSDF draw. All but `choice` are in [0, 1).
+template <class T> struct DirectNumbers {
+    std::uint64_t choice = 0;  ///< 64 random bits: a float would starve lights where there are many
+    Vec2<T> cap{0};
+    T lobe = 0;
+    Vec2<T> bsdf{0};
+};
+
+/// How many draws of each technique a sample has, or, in the one-sample model, their
+/// probabilities.
+template <class T> struct DirectCounts {
+    T light = 1, bsdf = 1;
+};
+
+/// One draw, and all that a host's own loop may want of it.
+template <class T> struct DirectDraw {
+    Vec3<T> radiance{0};  ///< its share of the estimate; 0 where it meets no light or is occluded
+    Vec3<T> wi{0};        ///< unit
+    LightIndex light = no_light;  ///< drawn, or met
+    T distance = 0;               ///< to the light, scene units
+    T light_pdf = 0;              ///< per steradian, with the light's probability in it
+    T bsdf_pdf = 0;               ///< per steradian
+    T weight = 0;                 ///< of the heuristic
+};
+
+/// The estimate of one sample. invalid: draws that were not finite (a BSDF that says NaN); they
+/// count as 0.
+template <class T> struct DirectSample {
+    Vec3<T> radiance{0};
+    int invalid = 0;
+
+    void add(const DirectDraw<T>& draw)
+    {
+        const Vec3<T>& r = draw.radiance;
+        if (std::isfinite(r.x + r.y + r.z)) radiance += r;
+        else ++invalid;
+    }
+};
+
+/// All lights along a direction: the nearest, and the union's density.
+struct LightsAlong {
+    LightHit nearest;
+    double pdf = 0;  ///< Σ P_k/Ω_k, per steradian
+};
+
+/// own: a light that the direction was drawn towards and therefore meets, or no_light.
+template <class Policy, class T>
+LightsAlong lights_along(const DirectPoint<Policy, T>& point, const Vec3<double>& wi,
+                         const LightHit& own)
+{
+    const auto pdf_of = [&](LightIndex j) {
+        const Light& light = point.lights().lights()[static_cast<std::size_t>(j)];
+        return point.probability(j) /
+               cap_of_sphere(light.center, light.radius, point.x()).solid_angle();
+    };
+    LightsAlong along{own, own.light >= 0 ? pdf_of(own.light) : 0};
+    point.lights().hierarchy().for_each_along(point.x(), wi, [&](const LightHit& hit) {
+        if (hit.light == own.light) return;
+        along.pdf += pdf_of(hit.light);
+        const double d = along.nearest.distance;
+        if (hit.distance < d || (hit.distance == d && hit.light < along.nearest.light))
+            along.nearest = hit;
+    });
+    return along;
+}
+
+/// A draw towards a light that was chosen with some probability.
+template <class Heuristic, class Technique, class Policy, class T>
+DirectDraw<T> draw_towards(const DirectPoint<Policy, T>& point, const HostBsdf<T> auto& bsdf,
+                           const Occluder<T> auto& is_occluded, const Choice& choice,
+                           const Vec2<T>& u, const DirectCounts<T>& counts)
+{
+    DirectDraw<T> result;
+    if (choice.light < 0 || !(choice.probability > 0)) return result;
+    const Light& light = point.lights().lights()[static_cast<std::size_t>(choice.light)];
+    const Cap<T> cap = point.cap(choice.light);
+    const CapDraw<T> draw = Technique::draw(cap, point.n(), u);
+    const T cos_theta = dot(point.n(), draw.wi);
+    result.wi = draw.wi, result.light = choice.light, result.distance = draw.distance;
+    if (!(cos_theta > 0)) return result;
+
+    const T inverse_pdf_over_sin = cap.sin_max * draw.inverse_pdf_sin2;
+    const T probability = static_cast<T>(choice.probability);
+    Vec3<T> radiance_over_pdf =
+        vec_cast<T>(light.radiance_radius) / cap.distance * inverse_pdf_over_sin;
+    result.light_pdf = probability / max_of(cap.sin_max * inverse_pdf_over_sin,
+                                            std::numeric_limits<T>::denorm_min());
+    // Without the rounding to T: a float direction is off by more than a small light is wide.
+    const Vec3<double> to_center = light.center - point.x();
+    const Vec3<double> exact_wi = normalized(normalized(to_center) + vec_cast<double>(draw.offset));
+    const double met = hit_distance(to_center, light.radius, exact_wi);
+    const LightHit own{choice.light, std::isfinite(met) ? met : dot(to_center, exact_wi)};
+    if constexpr (Technique::sums_lights) {
+        const LightsAlong along = lights_along(point, exact_wi, own);
+        const double solid_angle =
+            cap_of_sphere(light.center, light.radius, point.x()).solid_angle();
+        const double share = choice.probability / (solid_angle * along.pdf);
+        result.light_pdf /= static_cast<T>(share);
+        if (along.nearest.light != choice.light) {
+            const auto j = static_cast<std::size_t>(along.nearest.light);
+            radiance_over_pdf = vec_cast<T>(radiance(point.lights().lights()[j]) * solid_angle);
+            result.light = along.nearest.light;
+            result.distance = static_cast<T>(along.nearest.distance);
+        }
+        radiance_over_pdf *= static_cast<T>(share);
+    }
+    result.bsdf_pdf = static_cast<T>(bsdf.pdf(draw.wi));
+    result.weight = Heuristic::weight(
+        std::array<T, 2>{counts.light * result.light_pdf, counts.bsdf * result.bsdf_pdf}, 0);
+    const Vec3<T> share = Vec3<T>(bsdf.evaluate(draw.wi)) * cos_theta * radiance_over_pdf *
+                          (result.weight / (counts.light * probability));
+    if (share == Vec3<T>(0)) return result;
+    if constexpr (!Technique::sums_lights)
+        if (point.lights().hierarchy().hides(point.x(), exact_wi, own)) return result;
+    if (!is_occluded(draw.wi, result.distance)) result.radiance = share;
+    return result;
+}
+
+/// A draw of the BSDF, which may meet a light.
+template <class Heuristic, class Technique, class Policy, class T>
+DirectDraw<T> draw_bsdf(const DirectPoint<Policy, T>& point, const HostBsdf<T> auto& bsdf,
+                        const Occluder<T> auto& is_occluded, const T& lobe, const Vec2<T>& u,
+                        const DirectCounts<T>& counts)
+{
+    DirectDraw<T> result;
+    if (!point.is_lit()) return result;
+    result.wi = bsdf.sample(lobe, u);
+    const T cos_theta = dot(point.n(), result.wi);
+    if (!(cos_theta > 0)) return result;
+    const Vec3<double> wi = normalized(vec_cast<double>(result.wi));
+    const LightHit hit = point.lights().hierarchy().nearest(point.x(), wi);
+    if (hit.light < 0) return result;
+    result.light = hit.light, result.distance = static_cast<T>(hit.distance);
+    result.bsdf_pdf = static_cast<T>(bsdf.pdf(result.wi));
+    if (!(result.bsdf_pdf > 0)) return result;
+
+    if constexpr (Technique::sums_lights)
+        result.light_pdf = static_cast<T>(lights_along(point, wi, {}).pdf);
+    else
+        result.light_pdf = static_cast<T>(point.probability(hit.light)) *
+                           Technique::pdf(point.cap(hit.light), point.n(), cos_theta);
+    result.weight = Heuristic::weight(
+        std::array<T, 2>{counts.light * result.light_pdf, counts.bsdf * result.bsdf_pdf}, 1);
+    const Light& light = point.lights().lights()[static_cast<std::size_t>(hit.light)];
+    const Vec3<T> share = Vec3<T>(bsdf.evaluate(result.wi)) * cos_theta *
+                          vec_cast<T>(radiance(light)) *
+                          (result.weight / (counts.bsdf * result.bsdf_pdf));
+    if (share != Vec3<T>(0) && !is_occluded(result.wi, result.distance)) result.radiance = share;
+    return result;
+}
+
+/// One sample of the multi-sample model (Veach 1997, §9.2.1): light draws and BSDF draws, weighed.
+/// numbers(k): those of draw k, a DirectNumbers<T>; light draw k and BSDF draw k may share it, as
+/// they read different members. With `all`, every light has `light_draws`, and k runs over them
+/// all.
+template <class Heuristic, class Technique, class Policy, class T>
+DirectSample<T> sample_direct(const DirectPoint<Policy, T>& point, const HostBsdf<T> auto& bsdf,
+                              const Occluder<T> auto& is_occluded, const auto& numbers,
+                              int light_draws = 1, int bsdf_draws = 1)
+{
+    DirectSample<T> sample;
+    if (!point.is_lit()) return sample;
+    const DirectCounts<T> counts{T(light_draws), T(bsdf_draws)};
+    const auto lights = static_cast<int>(point.lights().lights().size());
+    const int draws = Policy::draws_every_light ? light_draws * lights : light_draws;
+    for (int k = 0; k < draws; ++k) {
+        const DirectNumbers<T> u = numbers(k);
+        const Choice choice =
+            Policy::draws_every_light ? Choice{k / light_draws, 1} : point.choose(u.choice);
+        sample.add(
+            draw_towards<Heuristic, Technique>(point, bsdf, is_occluded, choice, u.cap, counts));
+    }
+    for (int k = 0; k < bsdf_draws; ++k) {
+        const DirectNumbers<T> u = numbers(k);
+        sample.add(
+            draw_bsdf<Heuristic, Technique>(point, bsdf, is_occluded, u.lobe, u.bsdf, counts));
+    }
+    return sample;
+}
+
+/// One sample of the one-sample model (Veach 1997, §9.2.4): a light draw or a BSDF draw,
+/// probability ½ each, by `technique` in [0, 1).
+template <class Heuristic, class Technique, class Policy, class T>
+DirectSample<T> sample_direct_once(const DirectPoint<Policy, T>& point,
+                                   const HostBsdf<T> auto& bsdf,
+                                   const Occluder<T> auto& is_occluded, const T& technique,
+                                   const DirectNumbers<T>& u)
+{
+    static_assert(!Policy::draws_every_light, "one draw cannot be one for every light");
+    DirectSample<T> sample;
+    const DirectCounts<T> halves{T(0.5), T(0.5)};
+    if (technique < T(0.5))
+        sample.add(draw_towards<Heuristic, Technique>(point, bsdf, is_occluded,
+                                                      point.choose(u.choice), u.cap, halves));
+    else
+        sample.add(
+            draw_bsdf<Heuristic, Technique>(point, bsdf, is_occluded, u.lobe, u.bsdf, halves));
+    return sample;
+}
+
+}  // namespace mis
