@@ -27,6 +27,15 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/mis-config-version.cmake
 install(FILES "${PROJECT_BINARY_DIR}/mis-config.cmake" "${PROJECT_BINARY_DIR}/mis-config-version.cmake"
   cmake/FindOpenImageIO.cmake DESTINATION "${package_dir}")
 
+# For hosts that CMake does not build. The prefix is where the file lies, wherever that is moved to.
+set(pc_flags "")
+if(NOT MIS_XSIMD_INCLUDE_DIR)
+  set(pc_flags " -DMIS_WITHOUT_LANES")
+endif()
+file(RELATIVE_PATH pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+configure_file(cmake/mis-core.pc.in "${PROJECT_BINARY_DIR}/mis-core.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/mis-core.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
 if(TARGET mis_images)
   install(TARGETS mis_images LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/mis" COMPONENT program)
 endif()

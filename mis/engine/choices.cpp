@@ -2,6 +2,7 @@
 
 #include "mis/bsdf/registry.h"
 #include "mis/policy/registry.h"
+#include "mis/scene/raise.h"
 
 #include <stdexcept>
 #include <string>
@@ -14,7 +15,7 @@ std::shared_ptr<const void> make_policy(std::string_view name, const Lights& lig
     for_each_type(Policies{}, [&]<class P>() {
         if (P::name == name) policy = std::make_shared<const P>(lights);
     });
-    if (!policy) throw std::out_of_range("no policy is called " + std::string(name));
+    if (!policy) raise<std::out_of_range>("no policy is called " + std::string(name));
     return policy;
 }
 
@@ -24,7 +25,7 @@ std::shared_ptr<const void> make_bsdf(const Material& material)
     for_each_type(Bsdfs{}, [&]<class B>() {
         if (B::name == material.type) bsdf = std::make_shared<const B>(material);
     });
-    if (!bsdf) throw std::out_of_range("no BSDF is called " + material.type);
+    if (!bsdf) raise<std::out_of_range>("no BSDF is called " + material.type);
     return bsdf;
 }
 

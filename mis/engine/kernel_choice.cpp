@@ -1,5 +1,7 @@
 #include "mis/engine/kernels.h"
 
+#include "mis/scene/raise.h"
+
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -67,8 +69,8 @@ InstructionSet chosen(std::string_view name)
         if (set.name == name) return set;
         known += (known.empty() ? "" : ", ") + std::string(set.name);
     }
-    throw std::runtime_error("instruction set: found \"" + std::string(name) +
-                             "\"; this processor and this build have " + known);
+    raise<std::runtime_error>("instruction set: found \"" + std::string(name) +
+                              "\"; this processor and this build have " + known);
 }
 
 }  // namespace

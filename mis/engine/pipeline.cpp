@@ -1,6 +1,7 @@
 #include "mis/engine/pipeline.h"
 
 #include "mis/engine/stages_trace.h"
+#include "mis/scene/raise.h"
 
 #include <stdexcept>
 #include <string>
@@ -13,7 +14,7 @@ template <class List> const auto& named(const List& list, std::string_view name)
 {
     for (const auto& entry : list)
         if (entry.name == name) return entry;
-    throw std::out_of_range("no stage is made for " + std::string(name));
+    raise<std::out_of_range>("no stage is made for " + std::string(name));
 }
 
 template <class T>
@@ -22,8 +23,8 @@ const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view 
 {
     for (const DirectionStages<T>& entry : kernels.directions)
         if (entry.technique == technique && entry.bsdf == bsdf) return entry;
-    throw std::out_of_range("no draw is made for " + std::string(technique) + " on " +
-                            std::string(bsdf));
+    raise<std::out_of_range>("no draw is made for " + std::string(technique) + " on " +
+                             std::string(bsdf));
 }
 
 template <class T> void add_surfaces(std::vector<NamedStage<T>>& stages, const Effects& effects)

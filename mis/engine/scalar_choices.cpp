@@ -4,6 +4,7 @@
 #include "mis/engine/light_columns.h"
 #include "mis/heuristic/registry.h"
 #include "mis/policy/registry.h"
+#include "mis/scene/raise.h"
 #include "mis/technique/registry.h"
 
 #include <memory>
@@ -26,7 +27,7 @@ ScalarBsdf scalar_bsdf(const Material& material)
         };
         made.draws = bsdf.draws();
     });
-    if (!made.evaluate) throw std::out_of_range("no BSDF is called " + material.type);
+    if (!made.evaluate) raise<std::out_of_range>("no BSDF is called " + material.type);
     return made;
 }
 
@@ -39,7 +40,7 @@ ScalarHeuristic scalar_heuristic(std::string_view name)
                 return H::weight(density, i);
             };
     });
-    if (!made) throw std::out_of_range("no heuristic is called " + std::string(name));
+    if (!made) raise<std::out_of_range>("no heuristic is called " + std::string(name));
     return made;
 }
 
@@ -60,7 +61,7 @@ ScalarTechnique scalar_technique(std::string_view name)
         }
     });
     if (!made.light_pdf && !made.direction_pdf)
-        throw std::out_of_range("no technique is called " + std::string(name));
+        raise<std::out_of_range>("no technique is called " + std::string(name));
     return made;
 }
 
@@ -92,7 +93,7 @@ ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights)
                          [table, policy](LightIndex j) { return table.probability(j); }};
         };
     });
-    if (!prepare_) throw std::out_of_range("no policy is called " + std::string(name));
+    if (!prepare_) raise<std::out_of_range>("no policy is called " + std::string(name));
 }
 
 const ScalarPolicy::Table& ScalarPolicy::at(const Vec3<double>& x, const Vec3<double>& n)

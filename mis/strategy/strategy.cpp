@@ -3,6 +3,7 @@
 #include "mis/heuristic/registry.h"
 #include "mis/policy/registry.h"
 #include "mis/scene/nearest_name.h"
+#include "mis/scene/raise.h"
 #include "mis/strategy/names.h"
 #include "mis/technique/registry.h"
 
@@ -47,14 +48,14 @@ std::string suggestion(std::string_view found, const std::vector<Choosable>& lis
 [[noreturn]] void refuse_unknown(std::string_view strategy, std::string_view kind,
                                  std::string_view found, const std::vector<Choosable>& list)
 {
-    throw StrategyError("strategy \"" + std::string(strategy) + "\": found " + std::string(kind) +
-                        " \"" + std::string(found) + "\"; known are " + known(list) +
-                        suggestion(found, list));
+    raise<StrategyError>("strategy \"" + std::string(strategy) + "\": found " + std::string(kind) +
+                         " \"" + std::string(found) + "\"; known are " + known(list) +
+                         suggestion(found, list));
 }
 
 [[noreturn]] void refuse(std::string_view strategy, const std::string& reason)
 {
-    throw StrategyError("strategy \"" + std::string(strategy) + "\": " + reason);
+    raise<StrategyError>("strategy \"" + std::string(strategy) + "\": " + reason);
 }
 
 bool chooses_light(std::string_view technique)
@@ -197,9 +198,9 @@ Strategy parse_strategy(std::string_view name)
             std::vector<Choosable> whole;
             for (const Choosable& c : technique_names())
                 if (!mis::chooses_light(c.name)) whole.push_back(c);
-            throw StrategyError("found \"" + std::string(name) +
-                                "\"; a strategy is policy/heuristic, or one of " + known(whole) +
-                                suggestion(name, whole));
+            raise<StrategyError>("found \"" + std::string(name) +
+                                 "\"; a strategy is policy/heuristic, or one of " + known(whole) +
+                                 suggestion(name, whole));
         }
     } else {
         s.policy = parts[0];

@@ -1,0 +1,16 @@
+#pragma once
+
+// The core in one include: direct lighting at a point (engine/direct.h) or over many
+// (engine/lit_scene.h, engine/render.h), with every policy, technique, heuristic and BSDF. No
+// files, no threads, no statistics. docs/embedding.md is a walk-through.
+
+#include "mis/bsdf/framed.h"
+#include "mis/bsdf/registry.h"
+#include "mis/engine/direct.h"
+#include "mis/engine/render.h"
+#include "mis/heuristic/registry.h"
+#include "mis/policy/registry.h"
+#include "mis/run/serial.h"
+#include "mis/scene/validate.h"
+#include "mis/strategy/strategy.h"
+#include "mis/technique/registry.h"
