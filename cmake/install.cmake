@@ -1,4 +1,4 @@
-# cmake --install: the program, the libraries, and find_package(mis COMPONENTS core embree tbb compare io).
+# cmake --install: the program, the libraries, and find_package(mis COMPONENTS core c embree tbb compare io).
 # --component development installs the libraries, without the program.
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
@@ -9,7 +9,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/mis" "${PROJECT_BINARY_DIR}/generated/m
 
 # One file of targets per component, so that one that is not asked for asks for nothing.
 set(components "")
-foreach(component core embree tbb compare io)
+foreach(component core c embree tbb compare io)
   if(TARGET mis_${component})
     list(APPEND components ${component})
     install(TARGETS mis_${component} EXPORT mis-${component} ARCHIVE)

@@ -85,7 +85,8 @@ private:
 };
 
 /// A shading point with the policy's table for it. Keep one per thread and move it from point to
-/// point: it allocates when it is made, for as many lights as there are then.
+/// point: it allocates when it is made, and when it is moved and there are more lights than ever
+/// before.
 template <class Policy, class T = float> class DirectPoint {
     using Table = decltype(std::declval<const Policy&>().template prepare<T>(
         std::declval<const ChoicePoint<T>&>(), std::declval<const LightColumns<T>&>(),
@@ -94,7 +95,7 @@ template <class Policy, class T = float> class DirectPoint {
 public:
     /// Keeps a reference to the lights.
     explicit DirectPoint(const DirectLights<Policy, T>& lights)
-        : lights_(&lights), scratch_(Policy::table_bytes(lights.lights().size()) + 64)
+        : lights_(&lights), scratch_(scratch_bytes(lights))
     {
     }
 
@@ -106,6 +107,8 @@ public:
         x_ = x, n_ = n;
         const bool is_finite = std::isfinite(x.x + x.y + x.z) && std::isfinite(n.x + n.y + n.z);
         is_lit_ = is_finite && !lights_->hierarchy().contains(x);
+        const std::size_t needed = scratch_bytes(*lights_);
+        if (scratch_.size() < needed) scratch_ = Scratch(needed);
         scratch_.clear();
         if (is_lit_)
             table_.emplace(lights_->policy().template prepare<T>(
@@ -137,6 +140,10 @@ public:
     }
 
 private:
+    static std::size_t scratch_bytes(const DirectLights<Policy, T>& lights)
+    {
+        return Policy::table_bytes(lights.lights().size()) + 64;
+    }
     const DirectLights<Policy, T>* lights_;
     Scratch scratch_;
     std::optional<Table> table_;

@@ -28,6 +28,8 @@ run("${CMAKE_COMMAND}" --install "${build}" --component development --prefix "${
 build_and_run(installed installed "${flags}" "-DCMAKE_PREFIX_PATH=${work}/prefix")
 run("${CMAKE_COMMAND}" --build "${work}/installed" --target stranger)
 run("${work}/installed/stranger")
+run("${CMAKE_COMMAND}" --build "${work}/installed" --target host_in_c)
+run("${work}/installed/host_in_c")
 
 find_program(pkg_config pkg-config)
 if(pkg_config)

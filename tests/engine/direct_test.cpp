@@ -195,16 +195,17 @@ TEST(Direct, LightsNothingWhereNothingCanBeLit)
 TEST(Direct, OtherLightsAreAsThoughNewlyMade)
 {
     for_each_type(Policies{}, [&]<class Policy>() {
-        Lights lights = three_lights_apart();
+        Lights lights = thirty_lights_one_dark();
         DirectLights<Policy> changed(overhead), recolored(lights);
+        DirectPoint<Policy> a(changed);  // made for one light
         changed.assign(lights);
         lights[1] = make_light(lights[1].center, lights[1].radius, {9, 1, 2});
         recolored.recolor(1, {9, 1, 2});
         changed.recolor(1, {9, 1, 2});
         const DirectLights<Policy> fresh(lights);
-        DirectPoint<Policy> a(changed), b(recolored), c(fresh);
+        DirectPoint<Policy> b(recolored), c(fresh);
         for (auto* point : {&a, &b, &c}) point->move_to(Vec3<double>(0), {0, 1, 0});
-        for (LightIndex j = 0; j < 3; ++j) {
+        for (LightIndex j = 0; j < 30; ++j) {
             EXPECT_EQ(a.probability(j), c.probability(j)) << Policy::name;
             EXPECT_EQ(b.probability(j), c.probability(j)) << Policy::name;
         }
