@@ -76,7 +76,7 @@ template <class T> struct Batch {
     VecColumn<T> to_center;                  ///< from x to the light's centre
     alignas(64) Column<T> radius, gap2;      ///< of the light; d² − r²
     alignas(64) Column<T> distance;          ///< along wi to the light
-    alignas(64) Column<T> light_number;      ///< `light` as a T, for screening
+    alignas(64) Column<T> light_number;      ///< its place in the columns as a T, for screening
     alignas(64) Column<T> candidate;    ///< 1 where screening cannot rule out another light, else 0
     alignas(64) Column<T> probability;  ///< P(j | point)
     alignas(64) Column<T> light_pdf,

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "mis/engine/batch.h"
+#include "mis/engine/light_order.h"
 #include "mis/policy/light_choice.h"
+#include "mis/sampling/number_source.h"
 #include "mis/scene/shading_point.h"
 #include "mis/trace/lights.h"
 #include "mis/trace/visibility.h"
@@ -16,16 +18,31 @@ inline constexpr std::size_t most_screened_lights = 32;
 template <class T> struct TileJob {
     std::span<const ShadingPoint> points;  ///< of the tile
     const Lights* lights = nullptr;
+    const LightOrder* order = nullptr;  ///< of tables and columns; nullptr: the scene's
     const LightHierarchy* hierarchy = nullptr;
     const SurfaceTracer* surfaces = nullptr;  ///< nullptr where none can occlude
     Vec3<double> origin{0};                   ///< of the columns
     LightColumns<T> columns;       ///< for policies that look at the point, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
-    std::uint64_t seed = 1;
+    NumberSource numbers;
     T light_count = 1,
       bsdf_count = 1;  ///< n_i of the multi-sample model; c_i of the one-sample model
-    std::uint32_t draws_per_light = 1;  ///< for a policy that draws every light
+    bool draws_every_light = false;
+    std::uint32_t draws_per_light = 1;  ///< or per sample, where the policy draws one
+    std::uint32_t bsdf_draws = 1;       ///< per sample
+
+    /// The light at a place of the tables, and back.
+    MIS_INLINE LightIndex light_at(LightIndex place) const
+    {
+        return order == nullptr || place < 0 ? place
+                                             : order->light_at[static_cast<std::size_t>(place)];
+    }
+    MIS_INLINE LightIndex place_of(LightIndex light) const
+    {
+        return order == nullptr || light < 0 ? light
+                                             : order->place_of[static_cast<std::size_t>(light)];
+    }
 };
 
 /// One step of a pipeline: reads and writes columns of a batch, and nothing else. A stage is a loop

@@ -64,6 +64,8 @@ template <class T> void fill_kernels(Kernels<T>& kernels)
     kernels.lanes = lane_count<V>;
     kernels.light_numbers = light_numbers<T>;
     kernels.bsdf_numbers = bsdf_numbers<T>;
+    kernels.sobol_light_numbers = sobol_light_numbers<T>;
+    kernels.sobol_bsdf_numbers = sobol_bsdf_numbers<T>;
     kernels.screen_meeting = screen_meeting<V, T>;
     kernels.screen_hiding = screen_hiding<V, T>;
     kernels.weigh_alone = weigh_alone<V, T>;

@@ -50,7 +50,8 @@ template <class T> struct HeuristicStages {
 template <class T> struct Kernels {
     std::string_view instruction_set;
     std::size_t lanes;
-    Stage<T> light_numbers, bsdf_numbers;
+    Stage<T> light_numbers, bsdf_numbers;              ///< independent
+    Stage<T> sobol_light_numbers, sobol_bsdf_numbers;  ///< of scrambled sequences
     Stage<T> screen_meeting;  ///< wi → candidate: could wi meet any light?
     Stage<T>
         screen_hiding;  ///< wi, light, distance → candidate: could another light stand before it?

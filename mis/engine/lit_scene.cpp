@@ -1,6 +1,7 @@
 #include "mis/engine/lit_scene.h"
 
 #include "mis/engine/choices.h"
+#include "mis/strategy/names.h"
 
 namespace mis {
 
@@ -12,19 +13,29 @@ LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effe
 
 template <class T>
 ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
-                                const Kernels<T>& kernels, std::uint64_t seed)
+                                const Kernels<T>& kernels, NumberSource numbers)
     : scene_(&scene), strategy_(strategy)
 {
-    if (strategy.chooses_light()) policy_ = make_policy(strategy.policy, scene.scene().lights);
+    const Lights& lights = scene.scene().lights;
+    if (strategy.chooses_light() && numbers.is_sobol()) {
+        order_ = std::make_shared<LightOrder>(spatial_order(lights));
+        policy_ = make_policy(strategy.policy, in_order(lights, *order_));
+    } else if (strategy.chooses_light()) {
+        policy_ = make_policy(strategy.policy, lights);
+    }
     for (const Material& material : scene.scene().materials)
-        pipelines_.push_back(compose(kernels, strategy, material.type, scene.effects()));
-    common_.lights = &scene.scene().lights;
+        pipelines_.push_back(compose(kernels, strategy, material.type, scene.effects(), numbers));
+    common_.lights = &lights;
+    common_.order = order_.get();
     common_.hierarchy = &scene.lights();
     common_.surfaces = scene.surfaces();
     common_.policy = policy_.get();
-    common_.seed = seed;
+    common_.numbers = numbers;
     const bool one_sample = strategy.model == Model::one_sample;
+    common_.draws_every_light = strategy.chooses_light() && draws_every_light(strategy.policy);
     common_.draws_per_light = static_cast<std::uint32_t>(std::max(strategy.counts[0], 1));
+    common_.bsdf_draws =
+        strategy.chooses_light() ? static_cast<std::uint32_t>(std::max(strategy.counts[1], 1)) : 1;
     const std::array<double, 2> counts =
         one_sample ? std::array{0.5, 0.5}
                    : std::array<double, 2>{static_cast<double>(strategy.counts[0]),

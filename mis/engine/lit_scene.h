@@ -41,7 +41,7 @@ private:
 template <class T> class ReadyStrategy {
 public:
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
-                  std::uint64_t seed);
+                  NumberSource numbers);
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
@@ -54,6 +54,7 @@ public:
 private:
     const LitScene* scene_;
     Strategy strategy_;
+    std::shared_ptr<const LightOrder> order_;  ///< of Sobol' numbers; else the scene's
     std::shared_ptr<const void> policy_;
     std::vector<Pipeline<T>> pipelines_;  ///< [material]
     TileJob<T> common_;

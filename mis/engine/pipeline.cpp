@@ -34,13 +34,14 @@ template <class T> void add_surfaces(std::vector<NamedStage<T>>& stages, const E
 
 template <class T>
 std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy& s,
-                                      std::string_view bsdf, const Effects& effects)
+                                      std::string_view bsdf, const Effects& effects,
+                                      Stage<T> numbers)
 {
     const PolicyStages<T>& policy = named(kernels.policies, s.policy);
     const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_light_rows<T>});
-    stages.push_back({StageKind::numbers, kernels.light_numbers});
+    stages.push_back({StageKind::numbers, numbers});
     stages.push_back({StageKind::choose, policy.choose});
     stages.push_back({StageKind::draw, technique.draw});
     if (technique.sums_lights && effects.light_occlusion)
@@ -62,13 +63,14 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
 /// A BSDF draw beside light draws.
 template <class T>
 std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& s,
-                                     std::string_view bsdf, const Effects& effects)
+                                     std::string_view bsdf, const Effects& effects,
+                                     Stage<T> numbers)
 {
     const PolicyStages<T>& policy = named(kernels.policies, s.policy);
     const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_bsdf_rows<T>});
-    stages.push_back({StageKind::numbers, kernels.bsdf_numbers});
+    stages.push_back({StageKind::numbers, numbers});
     stages.push_back({StageKind::draw, direction(kernels, "brdf", bsdf).draw});
     if (effects.lights <= most_screened_lights)
         stages.push_back({StageKind::meet, kernels.screen_meeting});
@@ -87,11 +89,12 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
 /// A direction technique by itself.
 template <class T>
 std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Strategy& s,
-                                           std::string_view bsdf, const Effects& effects)
+                                           std::string_view bsdf, const Effects& effects,
+                                           Stage<T> numbers)
 {
     const DirectionStages<T>& draw = direction(kernels, s.technique, bsdf);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>},
-                                      {StageKind::numbers, kernels.bsdf_numbers},
+                                      {StageKind::numbers, numbers},
                                       {StageKind::draw, draw.draw}};
     if (effects.lights <= most_screened_lights)
         stages.push_back({StageKind::meet, kernels.screen_meeting});
@@ -109,11 +112,15 @@ std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Stra
 
 template <class T>
 Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_view bsdf,
-                    const Effects& effects)
+                    const Effects& effects, const NumberSource& numbers)
 {
+    const Stage<T> light_numbers =
+        numbers.is_sobol() ? kernels.sobol_light_numbers : kernels.light_numbers;
+    const Stage<T> bsdf_numbers =
+        numbers.is_sobol() ? kernels.sobol_bsdf_numbers : kernels.bsdf_numbers;
     Pipeline<T> pipeline;
     if (!s.chooses_light()) {
-        pipeline.bsdf = direction_alone(kernels, s, bsdf, effects);
+        pipeline.bsdf = direction_alone(kernels, s, bsdf, effects, bsdf_numbers);
         pipeline.bsdf_draws = 1;
         return pipeline;
     }
@@ -122,16 +129,16 @@ Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_vi
     pipeline.draws_every_light = policy.draws_every_light;
     pipeline.looks_at_point = policy.looks_at_point;
     pipeline.table_bytes = policy.table_bytes(effects.lights);
-    pipeline.light = light_half(kernels, s, bsdf, effects);
+    pipeline.light = light_half(kernels, s, bsdf, effects, light_numbers);
     pipeline.light_draws = s.counts[0];
     pipeline.bsdf_draws = s.counts[1];
-    if (pipeline.bsdf_draws > 0) pipeline.bsdf = bsdf_half(kernels, s, bsdf, effects);
+    if (pipeline.bsdf_draws > 0) pipeline.bsdf = bsdf_half(kernels, s, bsdf, effects, bsdf_numbers);
     return pipeline;
 }
 
 template Pipeline<float> compose(const Kernels<float>&, const Strategy&, std::string_view,
-                                 const Effects&);
+                                 const Effects&, const NumberSource&);
 template Pipeline<double> compose(const Kernels<double>&, const Strategy&, std::string_view,
-                                  const Effects&);
+                                  const Effects&, const NumberSource&);
 
 }  // namespace mis

@@ -46,9 +46,9 @@ template <class T> struct Pipeline {
 };
 
 /// Composes the pipeline. The strategy is checked (strategy/strategy.h), bsdf a name of the
-/// registry.
+/// registry; of `numbers`, only their kind matters.
 template <class T>
 Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& strategy, std::string_view bsdf,
-                    const Effects& effects);
+                    const Effects& effects, const NumberSource& numbers = {});
 
 }  // namespace mis

@@ -20,19 +20,19 @@ void choose_light(const TileJob<T>& job, Batch<T>& batch)
             batch.probability[i] = 1;
         } else {
             const Choice choice = table_of<Table>(batch, batch.point[i]).choose(batch.bits[i]);
-            batch.light[i] = choice.light;
+            batch.light[i] = job.light_at(choice.light);
             batch.probability[i] = static_cast<T>(choice.probability);
         }
     }
 }
 
 /// light → probability: for a light that another technique met.
-template <class Table, class T> void price_light(const TileJob<T>&, Batch<T>& batch)
+template <class Table, class T> void price_light(const TileJob<T>& job, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
-        batch.probability[i] =
-            static_cast<T>(table_of<Table>(batch, batch.point[i]).probability(batch.light[i]));
+        batch.probability[i] = static_cast<T>(
+            table_of<Table>(batch, batch.point[i]).probability(job.place_of(batch.light[i])));
     }
 }
 
@@ -159,7 +159,8 @@ template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch
         double others = 0;
         job.hierarchy->for_each_along(x, wi, [&](const LightHit& hit) {
             if (hit.light == chosen) return;
-            others += table.probability(hit.light) / (solid_angle(job, hit.light, x) * own);
+            others +=
+                table.probability(job.place_of(hit.light)) / (solid_angle(job, hit.light, x) * own);
             if (hit.distance < nearest.distance ||
                 (hit.distance == nearest.distance && hit.light < nearest.light))
                 nearest = hit;
@@ -187,7 +188,7 @@ template <class Table, class T> void sum_bsdf_draw(const TileJob<T>& job, Batch<
         double met = 0, others = 0;
         job.hierarchy->for_each_along(x, wi, [&](const LightHit& hit) {
             (hit.light == batch.light[i] ? met : others) +=
-                table.probability(hit.light) / solid_angle(job, hit.light, x);
+                table.probability(job.place_of(hit.light)) / solid_angle(job, hit.light, x);
         });
         // A factor to what the technique said of the light that was met: exactly 1 where its cap is
         // the only one.

@@ -46,7 +46,7 @@ template <class V, class T> void screen_hiding(const TileJob<T>& job, Batch<T>& 
     const LightColumns<T>& lights = job.columns;
     const V zero = number<V>(0), one = number<V>(1);
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i)
-        batch.light_number[i] = static_cast<T>(batch.light[i]);
+        batch.light_number[i] = static_cast<T>(job.place_of(batch.light[i]));
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Vec3<V> x = batch.x.template get<V>(row), wi = batch.wi.template get<V>(row);
         const V light = lanes_of<V>(batch.light_number, row),

@@ -2,7 +2,7 @@
 
 #include "mis/engine/rows.h"
 #include "mis/math/frame.h"
-#include "mis/sampling/random.h"
+#include "mis/sampling/sobol.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,13 +75,24 @@ template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
     batch.rows = kept;
 }
 
-/// The technique number of a row's sample: the first word of its BSDF block.
+/// The technique number of a row's sample: the first word of its BSDF block, or that dimension of
+/// its sequence.
 template <class T> bool draws_light(const TileJob<T>& job, const Batch<T>& batch, int row)
 {
     const auto slot = static_cast<std::size_t>(batch.slot[static_cast<std::size_t>(row)]);
-    const Words words = random_words(
-        job.seed, {shading_point(job, batch, row).id, batch.sample_number[slot], 0}, Block::bsdf);
-    return words[0] < 0x8000'0000U;
+    const std::uint32_t id = shading_point(job, batch, row).id;
+    const std::uint64_t seed = job.numbers.seed, sample = batch.sample_number[slot];
+    std::uint32_t word = 0;
+    if (job.numbers.is_sobol()) {
+        const SequencePoint at =
+            SequencePoint::of(job.numbers.samples_per_scrambling, sample, 1, 0);
+        const Words keys = scrambling_keys(seed, id, at, 0, Block::bsdf);
+        word = sobol_word(Dimension::technique, static_cast<std::uint32_t>(at.index),
+                          keys[key_of::technique]);
+    } else {
+        word = random_words(seed, {id, sample, 0}, Block::bsdf)[0];
+    }
+    return word < 0x8000'0000U;
 }
 
 }  // namespace

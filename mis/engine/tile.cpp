@@ -39,7 +39,8 @@ template <class T> struct Workspace<T>::Run {
     Scratch& scratch;
     Column<double>& luminances;
     std::array<std::uint64_t, stage_names.size()> stage_ticks{};
-    Spread chunk;  ///< of the point and chunk at hand
+    Spread chunk;                ///< of the point and chunk at hand
+    double observation_sum = 0;  ///< over the samples so far of the observation at hand
 
     void all()
     {
@@ -116,35 +117,56 @@ template <class T> struct Workspace<T>::Run {
         }
     }
 
-    /// The values of the batch → moments, one run of samples of a point and chunk after the other.
+    /// The values of the batch → moments, one run of samples of a point after the other.
     void take_in()
     {
         for (std::size_t i = 0; i < static_cast<std::size_t>(batch.samples); ++i)
             luminances[i] = luminance(batch.value.at(static_cast<int>(i)));
+        const double share = 1.0 / range.samples_per_observation;
         for (std::size_t first = 0; first < static_cast<std::size_t>(batch.samples);) {
             const std::int32_t slot = batch.sample_point[first];
             std::size_t end = first + 1;
             while (end < static_cast<std::size_t>(batch.samples) && batch.sample_point[end] == slot)
                 ++end;
             const std::size_t point = batch.tile_point[static_cast<std::size_t>(slot)];
-            results[point].luminance.merge(
-                Moments::of(std::span<const double>(&luminances[first], end - first)));
+            const std::span<const double> observed = observations(first, end);
+            results[point].luminance.merge(Moments::of(observed));
             for (std::size_t i = first; i < end; ++i)
-                results[point].radiance_sum += batch.value.at(static_cast<int>(i));
-            if (!totals.empty()) add_to_chunks(point, first, end);
+                results[point].radiance_sum += share * batch.value.at(static_cast<int>(i));
+            if (!totals.empty()) add_to_chunks(point, first, observed);
             first = end;
         }
     }
 
-    /// Samples [first, end) of the batch, which are of one point, one chunk after the other.
-    void add_to_chunks(std::size_t point, std::size_t first, std::size_t end)
+    /// The observations that end with one of the samples [first, end) of the batch, which are of
+    /// one point. One may have begun in the batch before.
+    std::span<const double> observations(std::size_t first, std::size_t end)
+    {
+        const auto samples = std::span<double>(luminances).subspan(first, end - first);
+        const auto each = static_cast<std::uint64_t>(range.samples_per_observation);
+        if (each == 1) return samples;
+        std::uint64_t taken = (batch.sample_number[first] - range.first) % each;
+        std::size_t count = 0;
+        for (const double x : samples) {
+            observation_sum += x;
+            if (++taken < each) continue;
+            samples[count++] = observation_sum / static_cast<double>(each);
+            observation_sum = 0, taken = 0;
+        }
+        return samples.first(count);
+    }
+
+    /// Observations of one point, the first of which ends at or after sample `first` of the batch,
+    /// one chunk after the other.
+    void add_to_chunks(std::size_t point, std::size_t first, std::span<const double> observed)
     {
         const auto size = static_cast<std::size_t>(range.chunk);
-        auto number = static_cast<std::size_t>(batch.sample_number[first] - range.first);
-        while (first < end) {
-            const std::size_t count = std::min(size - number % size, end - first);
-            chunk.merge(Spread::of(std::span<const double>(&luminances[first], count)));
-            first += count, number += count;
+        auto number = static_cast<std::size_t>(batch.sample_number[first] - range.first) /
+                      static_cast<std::size_t>(range.samples_per_observation);
+        while (!observed.empty()) {
+            const std::size_t count = std::min(size - number % size, observed.size());
+            chunk.merge(Spread::of(observed.first(count)));
+            observed = observed.subspan(count), number += count;
             if (number % size == 0) end_chunk(point, number / size - 1);
         }
     }
@@ -169,7 +191,7 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     if (!scratch_ || scratch_->size() < pipeline.table_bytes)
         scratch_ = std::make_unique<Scratch>(std::max(scratch_bytes, pipeline.table_bytes));
     if (pipeline.looks_at_point || job.lights->size() <= most_screened_lights)
-        job.columns = fill_light_columns(*job.lights, job.origin, columns_);
+        job.columns = fill_light_columns(*job.lights, job.origin, columns_, job.order);
     batch_->samples = 0;
     batch_->points = 0;
     batch_->invalid = batch_->shadow_rays = 0;

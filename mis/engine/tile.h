@@ -8,10 +8,11 @@
 
 namespace mis {
 
-/// What all samples of one shading point come to.
+/// What all observations of one shading point come to. An observation is a sample; where samples
+/// depend on one another, it is the mean of all that do (SampleRange).
 struct PointResult {
     Moments luminance;
-    Vec3<double> radiance_sum{0};  ///< RGB, over all samples
+    Vec3<double> radiance_sum{0};  ///< RGB, over all observations
 
     Vec3<double> mean() const
     {
@@ -19,18 +20,20 @@ struct PointResult {
     }
 };
 
-/// Which samples of every point to take: `chunks` chunks of `chunk` samples, numbered from `first`
-/// on. A chunk belongs to one replicate.
+/// Which samples of every point to take: `chunks` chunks of `chunk` observations of so many
+/// samples each, numbered from sample `first` on. A chunk belongs to one replicate.
 struct SampleRange {
     std::uint64_t first = 0;
     int chunk = 1, chunks = 1;
-    int samples() const { return chunk * chunks; }
+    int samples_per_observation = 1;
+    int observations() const { return chunk * chunks; }
+    int samples() const { return observations() * samples_per_observation; }
 };
 
-/// Sums over the points of a tile, of one chunk's samples alone.
+/// Sums over the points of a tile, of one chunk's observations alone.
 struct ChunkTotals {
     double mean = 0;
-    double variance = 0;           ///< of one sample, unbiased; 0 for chunks of one sample
+    double variance = 0;           ///< of one observation, unbiased; 0 for chunks of one
     double relative_variance = 0;  ///< the same, times the point's weight
 };
 

@@ -159,7 +159,7 @@ template <class T> void expect_numbers_of_the_counter(const Kernels<T>& kernels)
 {
     std::array<ShadingPoint, 3> points{};
     for (std::size_t p = 0; p < 3; ++p) points[p].id = static_cast<std::uint32_t>(40 + 7 * p);
-    const TileJob<T> job{.points = points, .seed = 0x1234'5678'9abc};
+    const TileJob<T> job{.points = points, .numbers = 0x1234'5678'9abc};
     const auto batch = std::make_unique<Batch<T>>();
     batch->rows = 77, batch->draw = 3;
     for (std::size_t i = 0; i < 77; ++i) {
@@ -171,7 +171,7 @@ template <class T> void expect_numbers_of_the_counter(const Kernels<T>& kernels)
     batch->tile_point = {2, 0, 1};
     const auto words = [&](std::size_t i, Block block) {
         const std::uint32_t id = points[batch->tile_point[i % 3]].id;
-        return random_words(job.seed, {id, (std::uint64_t{5} << 32) + 76 - i, 3}, block);
+        return random_words(job.numbers.seed, {id, (std::uint64_t{5} << 32) + 76 - i, 3}, block);
     };
     kernels.light_numbers(job, *batch);
     for (std::size_t i = 0; i < 77; ++i) {

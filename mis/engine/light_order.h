@@ -1,0 +1,24 @@
+#pragma once
+
+#include "mis/scene/light.h"
+
+#include <vector>
+
+namespace mis {
+
+/// Another order of a scene's lights, in which neighbours stand near each other in space. Where a
+/// choice's bits run through the lights' probabilities in this order, bits that are spread evenly
+/// spread the choices evenly over the scene. The numbers of the lights stay what they are.
+struct LightOrder {
+    std::vector<LightIndex> light_at;  ///< [place]
+    std::vector<LightIndex> place_of;  ///< [light]
+};
+
+/// By halves: the lights cut in two at the median of their widest extent, and each half likewise,
+/// so that a far sun leaves the lamps' order alone. O(M log M).
+LightOrder spatial_order(const Lights& lights);
+
+/// The lights as they stand in that order.
+Lights in_order(const Lights& lights, const LightOrder& order);
+
+}  // namespace mis
