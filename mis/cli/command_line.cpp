@@ -59,7 +59,10 @@ void add_run_options(CLI::App& command, RunOptions& options)
         .add_option("--effects", options.effects,
                     "auto: only what the scene calls for; all: everything")
         ->capture_default_str();
-    command.add_option("--sampler", options.sampler, "independent random numbers")
+    command
+        .add_option(
+            "--sampler", options.sampler,
+            "independent: random numbers; sobol: scrambled sequences, whose samples spread evenly")
         ->capture_default_str();
     command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
 }
@@ -106,7 +109,9 @@ void add_compare(CLI::App& app, CompareOptions& options)
         ->type_name("SCENE");
     add_strategy_lists(c, options);
     add_stop_options(c, options.stop);
-    c.add_option("--at", options.at, "samples per point that the efficiency is for")
+    c.add_option("--at", options.at,
+                 "samples per point that the efficiency is for; with --sampler sobol, those of one "
+                 "scrambling, and the variance too is for them")
         ->type_name("N")
         ->capture_default_str();
     c.add_option(
@@ -209,6 +214,11 @@ void add_replay(CLI::App& app, ReplayOptions& options)
         ->type_name("N");
     c.add_option("--sample", options.sample, "number of the sample at that point")
         ->required()
+        ->check(whole_number_fault<std::uint64_t>)
+        ->type_name("N");
+    c.add_option("--at", options.at,
+                 "with --sampler sobol: samples of one scrambling, as --at of compare (all of a "
+                 "point's, as in render and cost)")
         ->check(whole_number_fault<std::uint64_t>)
         ->type_name("N");
     add_run_options(c, options.run);

@@ -62,6 +62,7 @@ struct ReplayOptions {
     std::string scene, strategy;
     std::uint32_t point = 0;
     std::uint64_t sample = 0;
+    std::optional<std::uint64_t> at;  ///< samples per scrambling
     RunOptions run;
 };
 int run_replay(const ReplayOptions& options);

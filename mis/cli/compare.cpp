@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace mis::cli {
@@ -26,6 +27,8 @@ StudyOptions study_options(const CompareOptions& options, Progress& progress)
     StudyOptions study;
     study.seed = options.run.seed;
     study.at = options.at;
+    if (options.run.is_sobol())
+        study.samples_per_scrambling = static_cast<std::uint64_t>(options.at);
     if (options.stop.spp) study.spp = static_cast<std::uint64_t>(*options.stop.spp);
     study.seconds = options.stop.seconds;
     study.error = options.stop.error;
@@ -42,12 +45,29 @@ StudyOptions study_options(const CompareOptions& options, Progress& progress)
     return study;
 }
 
+/// A variance is measured over scramblings: at least two replicates of two.
+void check_scramblings(const CompareOptions& options)
+{
+    constexpr double most = 65536;
+    if (!(options.at >= 1 && options.at <= most) || options.at != std::floor(options.at))
+        throw UsageError(
+            fmt::format("--at: found {}; with --sampler sobol it is the samples of one scrambling, "
+                        "a whole number from 1 to {}",
+                        options.at, most));
+    const auto at = static_cast<std::int64_t>(options.at);
+    if (options.stop.spp && (*options.stop.spp < 4 * at || *options.stop.spp % at != 0))
+        throw UsageError(fmt::format(
+            "--spp: found {}; with --sampler sobol it is a multiple of --at ({}), and at least {}",
+            *options.stop.spp, at, 4 * at));
+}
+
 void check_options(const CompareOptions& options)
 {
     check(options.stop, 4);
     if (!(options.at > 0 && options.at <= 1e12))
         throw UsageError(fmt::format(
             "--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
+    if (options.run.is_sobol()) check_scramblings(options);
     check(options.output);
 }
 
@@ -78,6 +98,7 @@ int run_compare(const CompareOptions& options)
                   .machine = machine_description()};
     report.seed = options.run.seed;
     report.at = options.at;
+    report.is_sobol = options.run.is_sobol();
     report.instruction_set = kernels<float>().instruction_set;
     if (!options.run.quiet)
         for (const std::string& reason : selection.left_out)

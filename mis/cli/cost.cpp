@@ -57,6 +57,7 @@ CostOptions study_options(const CostCommandOptions& options, Progress& progress)
 {
     CostOptions study;
     study.seed = options.run.seed;
+    study.is_sobol = options.run.is_sobol();
     study.seconds = options.stop.seconds.value_or(study.seconds);
     if (options.stop.spp) study.spp = static_cast<std::uint64_t>(*options.stop.spp);
     study.adds_twins = !options.precisions && !options.strategies;
@@ -86,6 +87,7 @@ int run_cost(const CostCommandOptions& options)
                       .machine = machine_description(),
                       .instruction_set = std::string(kernels<float>().instruction_set),
                       .seed = options.run.seed,
+                      .is_sobol = options.run.is_sobol(),
                       .threads = ready.executor.threads,
                       .scenes = {}};
     report.scenes.push_back(

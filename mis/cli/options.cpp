@@ -87,8 +87,9 @@ Scene read_scene_for(const std::string& file, const RunOptions& options)
 {
     if (options.effects != "auto" && options.effects != "all")
         throw UsageError("--effects: found \"" + options.effects + "\"; known are auto, all");
-    if (options.sampler != "independent")
-        throw UsageError("--sampler: found \"" + options.sampler + "\"; known is independent");
+    if (options.sampler != "independent" && options.sampler != "sobol")
+        throw UsageError("--sampler: found \"" + options.sampler +
+                         "\"; known are independent, sobol");
     const std::optional<std::array<int, 2>> resolution =
         options.resolution.empty() ? std::nullopt
                                    : std::optional(parse_resolution(options.resolution));

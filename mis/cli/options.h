@@ -30,6 +30,8 @@ struct RunOptions {
     std::string effects = "auto";
     std::string sampler = "independent";
     std::string command_line;
+
+    bool is_sobol() const { return sampler == "sobol"; }
 };
 
 /// Where figures go besides the table: --json and --csv.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -117,9 +118,10 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
     return outcome;
 }
 
-/// Until a time or an error is reached: all of the picture at once, in doubling rounds.
+/// Until a time or an error is reached: all of the picture at once, in doubling rounds. To an error
+/// by Sobol' sequences, all rounds double, so that the samples are a power of two.
 Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strategy,
-                     const StopOptions& stop, Progress& progress)
+                     const StopOptions& stop, bool is_sobol, Progress& progress)
 {
     const auto start = std::chrono::steady_clock::now();
     const auto [width, height] = ready.scene.camera->resolution;
@@ -159,6 +161,8 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
                     : double(outcome.samples);
             count =
                 static_cast<int>(std::clamp(needed, 1.0, std::min(64.0, double(outcome.samples))));
+            if (is_sobol)
+                count = static_cast<int>(std::min<std::uint64_t>(outcome.samples, 1 << 20));
             progress.show("rendering", error > 0 ? wanted * wanted / (error * error) : 0);
         }
         is_done = is_done || outcome.is_partial || band.results.empty();
@@ -208,11 +212,13 @@ int run_render(const RenderOptions& options)
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
     const auto start = std::chrono::steady_clock::now();
-    const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(), options.run.seed);
+    const bool is_sobol = options.run.is_sobol();
+    const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(),
+                                        {options.run.seed, is_sobol ? one_scrambling : 0});
     const StopOptions& stop = options.stop;
     const Outcome outcome =
         stop.seconds || stop.error
-            ? render_until(ready, prepared, stop, progress)
+            ? render_until(ready, prepared, stop, is_sobol, progress)
             : render_spp(ready, prepared, static_cast<std::uint64_t>(stop.spp.value_or(64)),
                          progress);
     progress.clear();
@@ -223,6 +229,7 @@ int run_render(const RenderOptions& options)
                {"mis/command", options.run.command_line},
                {"mis/strategy", name_of(strategy)},
                {"mis/seed", std::to_string(options.run.seed)},
+               {"mis/sampler", options.run.sampler},
                {"mis/samples_per_point", std::to_string(outcome.samples)},
                {"mis/partial", outcome.is_partial ? "true" : "false"}});
     if (!options.run.quiet) {
@@ -230,7 +237,13 @@ int run_render(const RenderOptions& options)
                    "{}: {} x {} pixels, {} shading points, {} samples each by {}, {:.2f} s{}\n",
                    options.out, outcome.image.width, outcome.image.height, outcome.shading_points,
                    outcome.samples, name_of(strategy), seconds_since(start), interruption(outcome));
-        if (outcome.error) fmt::print(stderr, "{}\n", in_words(*outcome.error));
+        if (outcome.error)
+            fmt::print(stderr, "{}{}\n", in_words(*outcome.error),
+                       is_sobol ? ", were its samples independent" : "");
+        if (is_sobol && !std::has_single_bit(outcome.samples) && !outcome.is_partial)
+            fmt::print(stderr,
+                       "{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
+                       outcome.samples);
         if (outcome.invalid > 0)
             fmt::print(stderr, "{} samples were not finite and count as 0\n", outcome.invalid);
     }

@@ -61,11 +61,27 @@ void print_steps(const Replay& replay)
                    stage_names[static_cast<std::size_t>(s.stage)], described(s));
 }
 
+NumberSource numbers_of(const ReplayOptions& options)
+{
+    return {options.run.seed, options.run.is_sobol() ? options.at.value_or(one_scrambling) : 0};
+}
+
+void check_at(const ReplayOptions& options)
+{
+    if (!options.at) return;
+    if (!options.run.is_sobol())
+        throw UsageError("--at: samples of one scrambling are meant; it takes --sampler sobol");
+    if (*options.at < 1 || *options.at > one_scrambling)
+        throw UsageError(
+            fmt::format("--at: found {}; 1 to {} samples of one scrambling are allowed",
+                        *options.at, one_scrambling));
+}
+
 template <class T>
 Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Strategy& strategy,
                     const Found& found, bool prints)
 {
-    const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), options.run.seed);
+    const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), numbers_of(options));
     const Replay again = replay(lit, ready, *found.tile, *found.point, options.sample);
     if (prints) print_steps(again);
     return again.value;
@@ -75,6 +91,7 @@ Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Str
 
 int run_replay(const ReplayOptions& options)
 {
+    check_at(options);
     const Strategy strategy = parse_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
     const StudyPoints points = find_study_points(ready.lit, ready.executor);

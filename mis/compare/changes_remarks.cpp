@@ -59,6 +59,7 @@ std::vector<std::string> remarks_on(const Report& b, const Report& a)
     std::string run, times, at;
     add(run, "version", b.version, a.version);
     add(run, "seed", unsigned_text(b.seed), unsigned_text(a.seed));
+    add(run, "sampler", sampler_name(b.is_sobol), sampler_name(a.is_sobol));
     add_sentence(sentences, "The runs differ: ", run);
     add(times, "machine", b.machine, a.machine);
     add(times, "instruction set", b.instruction_set, a.instruction_set);
@@ -68,6 +69,9 @@ std::vector<std::string> remarks_on(const Report& b, const Report& a)
     add(at, "", number(b.at, 15), number(a.at, 15));
     add_sentence(sentences, "Efficiencies are not compared: they are for ", at,
                  " samples per point.");
+    if (b.is_sobol != a.is_sobol || (b.is_sobol && b.at != a.at))
+        sentences.push_back(
+            "Warning: variances differ by the sampler and its samples per scrambling, too.");
     if (b.partial) sentences.push_back("The first run was stopped before its end.");
     if (a.partial) sentences.push_back("The second run was stopped before its end.");
     return sentences;

@@ -43,7 +43,8 @@ CostPoint point_of(const CostLevel& level, const SquaredError& error, const Cost
             .error = error_interval(error),
             .seconds = scaled(interval_of_median(level.seconds),
                               static_cast<double>(ground.points) / ground.threads),
-            .trust = error.trust};
+            .trust = error.trust,
+            .gain = gain_of(level, ground.reference)};
 }
 
 /// Are all that were measured at one sample below `square`, whatever else is known of them?
@@ -110,6 +111,23 @@ SquaredError squared_error(const CostLevel& level, const ReferenceError& referen
         e.trust = Trust::below_reference;
     else if (level.participation.number() < least_participation) e.trust = Trust::rare_samples;
     return e;
+}
+
+Interval gain_of(const CostLevel& level, const ReferenceError& reference)
+{
+    const SquaredError error = squared_error(level, reference);
+    if (level.spreads.empty() || error.trust == Trust::below_reference) return unknown_interval();
+    RegionSums one = level.squared_errors;  // of one independent sample: spread + error
+    double spread = 0;
+    for (std::size_t r = 0; r < one.size(); ++r)
+        for (std::size_t g = 0; g < one[r].size(); ++g) {
+            one[r][g] += level.spreads[r][g];
+            spread += level.spreads[r][g] / static_cast<double>(one.size());
+        }
+    const LogEstimate ratio = log_contrast(one, level.squared_errors);
+    const double gain = (spread + error.value) / (static_cast<double>(level.samples) * error.value);
+    return interval_of({std::log(gain), std::hypot(ratio.se, reference.se / error.value),
+                        std::max(ratio.dof, 1.0)});
 }
 
 bool tells_no_more(const CostMeasurements& curve, const ReferenceError& reference)
@@ -188,7 +206,7 @@ CostCurveReport curve_report(const CostMeasurements& curve, const CostGround& gr
         linear_interval(fitted_slope(fitted, ground.reference, Against::seconds));
     report.slope_p_value = two_sided_p(slope, -0.5);
     report.fits = !(report.slope_p_value < least_fit_p);
-    if (!std::isnan(model.log_variance.value))
+    if (!std::isnan(model.log_variance.value) && (report.fits || curve.levels[0].spreads.empty()))
         report.relative_variance = interval_of(model.log_variance);
     const TimeIntervals times = intervals_of(model.times);
     report.seconds_per_point = times.per_point;

@@ -18,6 +18,9 @@ struct CostLevel {
     /// [replicate][region]: squared errors over μ² + ε²; over regions they sum to their mean over
     /// the shading points.
     RegionSums squared_errors;
+    /// Likewise: mean squared distances of the samples from their own mean. Empty where the samples
+    /// are independent.
+    RegionSums spreads;
     Participation participation;  ///< of the squared errors, over points and replicates
     std::vector<double> seconds;  ///< [replicate]: CPU time of a point, with its preparation
 };
@@ -54,6 +57,10 @@ struct SquaredError {
 
 /// Mean relative squared error of a level, less the reference's.
 SquaredError squared_error(const CostLevel& level, const ReferenceError& reference);
+
+/// By how many times the variance of as many independent samples is larger (docs/theory.md (61)).
+/// Unknown where the level has no spreads, or the reference does not tell its error.
+Interval gain_of(const CostLevel& level, const ReferenceError& reference);
 
 /// Would more doublings tell nothing that is asked for: after five, is the error past the smallest
 /// of cost_targets, or were the last two below what the reference tells?

@@ -25,6 +25,11 @@ struct CostPoint {
     Interval error;             ///< root of the mean relative squared error
     Interval seconds;           ///< wall time on the stated threads, with preparation
     Trust trust = Trust::trusted;
+    /// Of scrambled sequences: what as many independent samples have for variance, over theirs
+    /// (docs/theory.md (61)). Unknown of independent samples and below the reference.
+    Interval gain{std::numeric_limits<double>::quiet_NaN(),
+                  std::numeric_limits<double>::quiet_NaN(),
+                  std::numeric_limits<double>::quiet_NaN()};
 };
 
 /// measured: between two measured points, or 1 sample is enough; extrapolated: beyond them, by
@@ -79,6 +84,7 @@ struct CostSceneReport {
     int replicates = 0;      ///< independent ones, of every point of a curve
     std::size_t copies = 1;  ///< of every shading point in a replicate: probes are few
     double epsilon = 0;      ///< of the relative error
+    bool is_sobol = false;   ///< a replicate of a point is one scrambled sequence
     bool partial = false;
     double seconds = 0;  ///< wall
     ReferenceReport reference;
@@ -89,6 +95,7 @@ struct CostSceneReport {
 struct CostReport {
     std::string version, command, machine, instruction_set;
     std::uint64_t seed = 1;
+    bool is_sobol = false;
     int threads = 1;
     bool partial = false;
     std::vector<CostSceneReport> scenes;

@@ -9,10 +9,11 @@ namespace {
 
 constexpr std::size_t wanted_points = 65536;
 constexpr std::size_t most_copies = 256, least_copies = 16;
+constexpr int stream_bits = 40;  // of a sample's number are the sample's own
 
 /// What one tile came to.
 struct TileErrors {
-    double squared_errors = 0;
+    double squared_errors = 0, spreads = 0;
     Participation participation;
     TileTotals cost;
 };
@@ -20,9 +21,10 @@ struct TileErrors {
 template <class T> class SamplerOf final : public CostSampler {
 public:
     SamplerOf(const StudyGround& ground, const CostPoints& points, const CostReference& reference,
-              const Strategy& strategy)
+              const Strategy& strategy, bool is_sobol)
         : points_(points), reference_(reference), executor_(ground.executor),
-          ready_(ground.scene, strategy, kernels<T>(), ground.seed)
+          ready_(ground.scene, strategy, kernels<T>(),
+                 {ground.seed, is_sobol ? std::uint64_t{1} << stream_bits : 0})
     {
     }
 
@@ -35,10 +37,13 @@ public:
         });
         CostReplicate sum;
         sum.squared_errors.resize(study.regions);
+        sum.spreads.resize(study.regions);
         TileTotals cost;
         for (std::size_t t = 0; t < tiles.size(); ++t) {
             sum.squared_errors[study.region_of(t)] +=
                 tiles[t].squared_errors / static_cast<double>(study.figure_points);
+            sum.spreads[study.region_of(t)] +=
+                tiles[t].spreads / static_cast<double>(study.figure_points);
             sum.participation.sum_d2 += tiles[t].participation.sum_d2;
             sum.participation.sum_d4 += tiles[t].participation.sum_d4;
             cost.add(tiles[t].cost);
@@ -57,13 +62,16 @@ private:
             sum.cost = workspace.run(
                 ready_.job(
                     tile, std::span(points_.points.shading.points).subspan(tile.first, tile.count)),
-                ready_.pipeline(tile.material), {stream << 40, static_cast<int>(samples), 1},
-                results, {}, {});
+                ready_.pipeline(tile.material),
+                {stream << stream_bits, static_cast<int>(samples), 1}, results, {}, {});
         });
         for (std::size_t i = 0; i < results.size(); ++i) {
             const std::size_t p = (tile.first + i) / points_.copies;
             const double d = results[i].luminance.mean - reference_.means[p];
             const double square = d == 0 ? 0 : d * d / reference_.scale.squares[p];
+            const double m2 = results[i].luminance.m2;
+            if (m2 > 0)
+                sum.spreads += m2 / static_cast<double>(samples) / reference_.scale.squares[p];
             sum.squared_errors += square;
             sum.participation.sum_d2 += square;
             sum.participation.sum_d4 += square * square;
@@ -104,11 +112,11 @@ CostPoints cost_points(const StudyPoints& points, bool has_camera)
 
 std::unique_ptr<CostSampler> make_sampler(const StudyGround& ground, const CostPoints& points,
                                           const CostReference& reference, const Strategy& strategy,
-                                          Precision precision)
+                                          Precision precision, bool is_sobol)
 {
     if (precision == Precision::in_double)
-        return std::make_unique<SamplerOf<double>>(ground, points, reference, strategy);
-    return std::make_unique<SamplerOf<float>>(ground, points, reference, strategy);
+        return std::make_unique<SamplerOf<double>>(ground, points, reference, strategy, is_sobol);
+    return std::make_unique<SamplerOf<float>>(ground, points, reference, strategy, is_sobol);
 }
 
 }  // namespace mis

@@ -18,6 +18,7 @@ CostPoints cost_points(const StudyPoints& points, bool has_camera);
 /// One replicate of one level, as measured.
 struct CostReplicate {
     std::vector<double> squared_errors;  ///< [region]; CostLevel
+    std::vector<double> spreads;         ///< likewise
     Participation participation;
     double seconds = 0;  ///< CPU time of a point, with its preparation
     std::uint64_t invalid = 0;
@@ -32,9 +33,9 @@ public:
 };
 
 /// ground.points are those that the reference is of; everything is kept by reference. Samples are
-/// at most 2³⁰, streams below 2²³.
+/// at most 2³⁰, streams below 2²³. is_sobol: those of a point in a run are one scrambled sequence.
 std::unique_ptr<CostSampler> make_sampler(const StudyGround& ground, const CostPoints& points,
                                           const CostReference& reference, const Strategy& strategy,
-                                          Precision precision);
+                                          Precision precision, bool is_sobol = false);
 
 }  // namespace mis

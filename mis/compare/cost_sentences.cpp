@@ -54,7 +54,7 @@ void add_crossings(std::vector<std::string>& sentences, const CostSceneReport& s
                             "; beyond, it is the other way round.");
 }
 
-void add_doubts(std::vector<std::string>& sentences, const CostCurveReport& curve)
+void add_doubts(std::vector<std::string>& sentences, const CostCurveReport& curve, bool is_sobol)
 {
     const std::string name = name_of(curve);
     if (!curve.reason.empty()) {
@@ -66,7 +66,11 @@ void add_doubts(std::vector<std::string>& sentences, const CostCurveReport& curv
         sentences.push_back(name + " has no error at all.");
         return;
     }
-    if (!curve.fits)
+    if (!curve.fits && is_sobol && curve.slope.high < -0.5)
+        sentences.push_back(name +
+                            " falls faster than the root of its samples, as scrambled "
+                            "sequences may, so nothing of it is extrapolated.");
+    else if (!curve.fits)
         sentences.push_back(name + " does not fall like the root of its samples (p = " +
                             number(curve.slope_p_value, 2) +
                             " for a slope of -1/2), so nothing of it is extrapolated.");
@@ -103,7 +107,7 @@ std::vector<std::string> sentences_of(const CostSceneReport& scene)
     std::vector<std::string> sentences;
     add_first(sentences, scene);
     add_crossings(sentences, scene);
-    for (const CostCurveReport& curve : scene.curves) add_doubts(sentences, curve);
+    for (const CostCurveReport& curve : scene.curves) add_doubts(sentences, curve, scene.is_sobol);
     if (!scene.reference.agrees)
         sentences.push_back("The strategies that the reference is pooled from, " +
                             listed(scene.reference.sources) +

@@ -158,7 +158,8 @@ private:
         if (curve.sampler) return true;
         const CostMeasurements& m = curve.measured;
         const Clock::time_point start = Clock::now();
-        curve.sampler = make_sampler(ground_, judged_, reference_, m.strategy, m.precision);
+        curve.sampler =
+            make_sampler(ground_, judged_, reference_, m.strategy, m.precision, options_.is_sobol);
         curve.sampler->run(1, apart);
         const double seconds = seconds_since(start);
         if (options_.spp || seconds * replicates < 0.5 * seconds_left()) return true;
@@ -172,6 +173,7 @@ private:
     {
         CostReplicate replicate = curve.sampler->run(samples, stream);
         level.squared_errors.push_back(std::move(replicate.squared_errors));
+        if (options_.is_sobol) level.spreads.push_back(std::move(replicate.spreads));
         level.participation.sum_d2 += replicate.participation.sum_d2;
         level.participation.sum_d4 += replicate.participation.sum_d4;
         level.seconds.push_back(replicate.seconds);
@@ -260,6 +262,7 @@ private:
         report.shading_points = points_.figure_points;
         report.replicates = replicates;
         report.copies = judged_.copies;
+        report.is_sobol = options_.is_sobol;
         report.epsilon = reference_.scale.epsilon;
         report.reference = reference_.report;
         report.partial = ground_.is_stopped();

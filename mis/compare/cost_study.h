@@ -12,6 +12,7 @@ namespace mis {
 
 struct CostOptions {
     std::uint64_t seed = 1;
+    bool is_sobol = false;             ///< a replicate of a point is one scrambled sequence
     double seconds = 30;               ///< wall time, for all
     std::optional<std::uint64_t> spp;  ///< samples per point of the last doubling, for every curve
     /// Adds twins_of() the strategies, by what the first three doublings say.

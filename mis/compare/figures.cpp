@@ -34,16 +34,17 @@ LogEstimate log_median_ratio(const Figures& a, const Figures& b, Seconds seconds
     return paired;
 }
 
-/// Of one point, from its own samples. The interval is normal in the logarithm; none where fewer
-/// than 30 samples carry the variance, as such a standard error means little.
-PointFigures point_figures(const Moments& moments)
+/// Of one point, from its own observations. The interval is normal in the logarithm; none where
+/// fewer than 30 of them carry the variance, as such a standard error means little.
+PointFigures point_figures(const Moments& moments, int samples_per_observation)
 {
     const double variance = moments.variance();
     const bool known = moments.effective_count() >= 30;
     const double se = moments.m2 == 0 ? 0
                       : known         ? moments.variance_se() / variance
                                       : std::numeric_limits<double>::quiet_NaN();
-    return {moments.mean, moments.mean_se(), interval_about(variance, {0, se, 1e6})};
+    return {moments.mean, moments.mean_se(),
+            interval_about(samples_per_observation * variance, {0, se, 1e6})};
 }
 
 void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figures& figures)
@@ -206,7 +207,8 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
         interval_about(std::exp(log_median(figures.seconds_to_1_percent).value) *
                            static_cast<double>(points) / threads,
                        to_1_percent);
-    for (const Moments& probe : s.probes) report.probes.push_back(point_figures(probe));
+    for (const Moments& probe : s.probes)
+        report.probes.push_back(point_figures(probe, s.samples_per_observation));
     return report;
 }
 

@@ -38,7 +38,8 @@ struct StrategyReport {
     std::vector<std::string> tied_with;           ///< names, by variance
     std::uint64_t samples = 0;                    ///< over all shading points
     double mean = 0, mean_se = 0;                 ///< luminance, over the shading points
-    Interval variance;                            ///< of one sample; mean over the shading points
+    Interval variance;                            ///< of one sample (docs/theory.md (60) where
+                                                  ///< is_sobol); mean over the shading points
     Interval relative_variance;                   ///< design §1
     int timed_rounds = 0;                         ///< that the times come from
     Interval seconds_per_point;                   ///< CPU time to prepare one shading point
@@ -112,6 +113,7 @@ struct OverallReport {
 struct Report {
     std::string version, command, machine, instruction_set;
     std::uint64_t seed = 1;
+    bool is_sobol = false;  ///< scrambled sequences of `at` samples; else independent samples
     int threads = 1;
     bool partial = false;
     double margin = 0.02;

@@ -50,12 +50,18 @@ std::string audit_fault(const StrategyMeasurements& s)
     return "";
 }
 
-std::string carried_by_few(const Participation& participation, std::uint64_t samples,
+/// "4096 samples", or "256 scramblings".
+std::string observations_in_words(const StrategyMeasurements& s)
+{
+    const double observations = static_cast<double>(s.pooled.samples) / s.samples_per_observation;
+    return count(observations) + (s.samples_per_observation > 1 ? " scramblings" : " samples");
+}
+
+std::string carried_by_few(const Participation& participation, const StrategyMeasurements& s,
                            const char* what)
 {
     return std::string("its ") + what + " is carried by about " + count(participation.number()) +
-           " of " + count(static_cast<double>(samples)) + " samples; " +
-           count(least_participation) + " are needed" +
+           " of " + observations_in_words(s) + "; " + count(least_participation) + " are needed" +
            (participation.number() > 0
                 ? ", about " +
                       number(std::max(1.1, least_participation / participation.number()), 2) +
@@ -92,14 +98,14 @@ std::string why_not_resolved(const StrategyMeasurements& s)
     if (!std::isfinite(pooled.variance) || !std::isfinite(pooled.mean))
         return "its variance is not a finite number";
     if (pooled.variance <= 0)
-        return "all of its " + count(static_cast<double>(pooled.samples)) +
-               " samples say the same, which proves nothing: rare samples may not have been drawn "
+        return "all of its " + observations_in_words(s) +
+               " say the same, which proves nothing: rare samples may not have been drawn "
                "yet";
     if (pooled.participation.number() < least_participation)
-        return carried_by_few(pooled.participation, pooled.samples, "variance");
+        return carried_by_few(pooled.participation, s, "variance");
     if (pooled.relative_participation.sum_d4 > 0 &&
         pooled.relative_participation.number() < least_participation)
-        return carried_by_few(pooled.relative_participation, pooled.samples, "relative variance");
+        return carried_by_few(pooled.relative_participation, s, "relative variance");
     const double error = relative_error(s, &ReplicateValues::variance);
     if (!(error <= largest_relative_error))
         return "its variance differs too much from replicate to replicate (its standard error is " +

@@ -9,9 +9,9 @@
 
 namespace mis {
 
-/// The samples that every point gets in one round, per replicate, are as many as it takes to have
-/// some tens of rounds in all: strategies alternate in small rounds, so that a drifting machine
-/// touches all alike.
+/// The samples (or scramblings: observations) that every point gets in one round, per replicate,
+/// are as many as it takes to have some tens of rounds in all: strategies alternate in small
+/// rounds, so that a drifting machine touches all alike.
 struct SamplePlan {
     int replicates = 16;
     int parts = 1;  ///< rounds that the replicates take turns in: more and shorter rounds, which

@@ -8,9 +8,12 @@
 namespace mis {
 
 StrategyRun::StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
-                         std::uint64_t seed)
-    : points_(&points), ready_(scene, strategy, kernels<float>(), seed),
-      results_(points.shading.points.size()), tiles_(points.shading.tiles.size())
+                         const NumberSource& numbers)
+    : points_(&points),
+      samples_per_observation_(numbers.is_sobol() ? static_cast<int>(numbers.samples_per_scrambling)
+                                                  : 1),
+      ready_(scene, strategy, kernels<float>(), numbers), results_(points.shading.points.size()),
+      tiles_(points.shading.tiles.size())
 {
 }
 
@@ -25,7 +28,8 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
     totals.assign(shading.tiles.size(), std::vector<ChunkTotals>(static_cast<std::size_t>(chunks)));
     executor.for_each(shading.tiles.size(), [&](std::size_t t) {
         const Tile& tile = shading.tiles[t];
-        const SampleRange range{tiles_[t].samples_per_point, allocation[t], chunks};
+        const SampleRange range{tiles_[t].samples_per_point, allocation[t], chunks,
+                                samples_per_observation_};
         workspaces.with([&](Workspace<float>& workspace) {
             costs[t] = workspace.run(
                 ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
@@ -55,7 +59,7 @@ void StrategyRun::sample_round(const Round& round, std::span<const double> weigh
             sums.totals.mean += n * totals[t][r].mean;
             sums.totals.variance += (n - 1) * totals[t][r].variance;
             sums.totals.relative_variance += (n - 1) * totals[t][r].relative_variance;
-            sums.samples += n;
+            sums.observations += n;
             sums.degrees += n - 1;
         }
     }
@@ -142,6 +146,10 @@ StrategyMeasurements StrategyRun::measurements(std::span<const double> scale) co
     m.pooled.mean *= lit;  // dark points have mean and variance 0
     m.pooled.variance *= lit;
     m.pooled.relative_variance *= lit;
+    m.samples_per_observation = samples_per_observation_;
+    m.pooled.samples *= static_cast<std::uint64_t>(samples_per_observation_);
+    m.pooled.variance *= samples_per_observation_;  // docs/theory.md (60)
+    m.pooled.relative_variance *= samples_per_observation_;
     m.region_participation.resize(points_->regions);
     for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
         const Tile& tile = points_->shading.tiles[t];
@@ -163,13 +171,14 @@ void StrategyRun::add_replicates(StrategyMeasurements& m) const
     for (std::size_t t = 0; t < points_->figure_tiles; ++t)
         region_points[points_->region_of(t)] += points_->shading.tiles[t].count;
     for (std::size_t r = 0; r < tiles_.front().replicates.size(); ++r) {
-        if (tiles_.front().replicates[r].samples == 0) break;  // stopped before its turn
+        if (tiles_.front().replicates[r].observations == 0) break;  // stopped before its turn
         ReplicateValues values;
         std::vector<double> region_means(points_->regions), region_variances(points_->regions);
         for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
             const ReplicateSums& sums = tiles_[t].replicates[r];
-            const double mean = sums.totals.mean / sums.samples;
-            const double per_degree = sums.degrees > 0 ? 1 / (sums.degrees * points) : 0;
+            const double mean = sums.totals.mean / sums.observations;
+            const double per_degree =
+                sums.degrees > 0 ? samples_per_observation_ / (sums.degrees * points) : 0;
             values.mean += mean / points;
             values.variance += sums.totals.variance * per_degree;
             region_variances[points_->region_of(t)] += sums.totals.variance * per_degree;

@@ -11,7 +11,8 @@
 
 namespace mis {
 
-/// Samples per replicate and point that a round takes, tile by tile.
+/// Observations per replicate and point that a round takes, tile by tile: samples, or scramblings
+/// of samples_per_scrambling.
 using Allocation = std::vector<int>;
 
 /// One strategy under way: all that its samples came to so far. Results do not depend on who ran
@@ -19,9 +20,9 @@ using Allocation = std::vector<int>;
 class StrategyRun {
 public:
     StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
-                std::uint64_t seed);
+                const NumberSource& numbers);
 
-    /// What every point gets in a round: allocation[tile] samples for each of the replicates
+    /// What every point gets in a round: allocation[tile] observations for each of the replicates
     /// [first, end) of `replicates`.
     struct Round {
         const Allocation& allocation;
@@ -34,8 +35,8 @@ public:
     void sample_round(const Round& round, std::span<const double> weights,
                       WorkspacePool<float>& workspaces, const AnyExecutor& executor);
 
-    /// The next samples of every point, `count` of them, outside the replicates: they count in the
-    /// points' moments alone.
+    /// The next observations of every point, `count` of them, outside the replicates: they count in
+    /// the points' moments alone.
     void sample_apart(int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor);
 
     /// CPU seconds per sample and per point's preparation, from `samples` at a few points; leaves
@@ -57,7 +58,7 @@ private:
     /// What a replicate's samples came to: sums over a tile's points, times the weights beside.
     struct ReplicateSums {
         ChunkTotals totals;
-        double samples = 0, degrees = 0;  ///< Σ samples, Σ (samples − 1)
+        double observations = 0, degrees = 0;  ///< Σ observations, Σ (observations − 1)
     };
     struct TileSums {
         std::vector<ReplicateSums> replicates;
@@ -74,6 +75,7 @@ private:
     void add_costs(StrategyMeasurements& m) const;
 
     const StudyPoints* points_;
+    int samples_per_observation_;
     ReadyStrategy<float> ready_;
     std::vector<PointResult> results_;
     std::vector<TileSums> tiles_;

@@ -92,7 +92,8 @@ private:
         }
         const double cpu = options_.spp ? 1e300 : budget() * executor_.threads;
         if (!options_.spp) {
-            costs_ = estimate_costs(ground(), strategies_, first_samples, 0.6 * cpu);
+            costs_ = estimate_costs(ground(), strategies_,
+                                    first_samples * samples_per_observation(), 0.6 * cpu);
             plan_.parts = parts_for(sum_of_costs(), cpu);
         }
         std::vector<Strategy> quick;
@@ -105,7 +106,7 @@ private:
         weights_ = rough_weights(ground());
         spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, all of twos
         if (spreads_) tile_factors_ = best_tile_factors(ground(), quick);
-        audit_.emplace(ground(), weights_, ran());
+        if (!numbers().is_sobol()) audit_.emplace(ground(), weights_, ran());
     }
 
     StudyGround ground()
@@ -113,10 +114,17 @@ private:
         return {scene_, *study_.points, workspaces_, executor_, options_.seed, options_.stop};
     }
 
+    NumberSource numbers() const { return {options_.seed, options_.samples_per_scrambling}; }
+
+    int samples_per_observation() const
+    {
+        return numbers().is_sobol() ? static_cast<int>(options_.samples_per_scrambling) : 1;
+    }
+
     void start_run(std::size_t s)
     {
         study_.runs[s] =
-            std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s], options_.seed);
+            std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s], numbers());
     }
 
     std::vector<Strategy> ran() const
@@ -127,7 +135,8 @@ private:
         return strategies;
     }
 
-    /// CPU seconds of `first_samples` at every point, over the strategies that are run.
+    /// CPU seconds of `first_samples` observations at every point, over the strategies that are
+    /// run.
     double sum_of_costs() const
     {
         double sum = 0;
@@ -135,7 +144,7 @@ private:
         return sum;
     }
 
-    /// About `chunk` samples per replicate in the mean, at least two.
+    /// About `chunk` observations per replicate in the mean, at least two.
     Allocation allocation_of(int chunk) const
     {
         Allocation allocation;
@@ -145,7 +154,8 @@ private:
         return allocation;
     }
 
-    /// `chunk` samples for every replicate: in one round, or in several in which they take turns.
+    /// `chunk` observations for every replicate: in one round, or in several in which they take
+    /// turns.
     void rounds(int chunk)
     {
         const Allocation allocation = allocation_of(chunk);
@@ -180,8 +190,15 @@ private:
             throw std::runtime_error(scene_.scene().file + ": " + name_of(strategies_[s]) +
                                      " gave a sample that is no number\n    " +
                                      replay_words(scene_.scene().file, strategies_[s], *found) +
-                                     " --seed " + std::to_string(options_.seed) +
+                                     " --seed " + std::to_string(options_.seed) + sampler_words() +
                                      " (and this run's --resolution) shows it");
+    }
+
+    /// As `mis replay` takes it.
+    std::string sampler_words() const
+    {
+        if (!numbers().is_sobol()) return "";
+        return " --sampler sobol --at " + std::to_string(options_.samples_per_scrambling);
     }
 
     void show_progress(double of_round)
@@ -195,7 +212,7 @@ private:
 
     void run_spp()
     {
-        plan_ = plan_for(*options_.spp);
+        plan_ = plan_for(*options_.spp / static_cast<std::uint64_t>(samples_per_observation()));
         if (points() == 0) return;
         for (const int chunk : plan_.chunks) {
             rounds(chunk);

@@ -89,6 +89,8 @@ std::string listed(std::span<const std::string> names)
     return text;
 }
 
+const char* sampler_name(bool is_sobol) { return is_sobol ? "sobol" : "independent"; }
+
 std::string replay_words(const std::string& file, const Strategy& strategy,
                          const SampleName& sample)
 {

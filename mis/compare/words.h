@@ -28,6 +28,9 @@ std::string duration(double seconds);
 /// "a", "a and b", "a, b and c".
 std::string listed(std::span<const std::string> names);
 
+/// As --sampler takes it.
+const char* sampler_name(bool is_sobol);
+
 /// The command that shows a sample again: "mis replay FILE --strategy NAME --point N --sample N".
 std::string replay_words(const std::string& file, const Strategy& strategy,
                          const SampleName& sample);

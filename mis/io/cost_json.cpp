@@ -1,5 +1,6 @@
 #include "mis/io/cost_json.h"
 
+#include "mis/compare/words.h"
 #include "mis/io/csv_field.h"
 #include "mis/io/json_parts.h"
 
@@ -15,7 +16,8 @@ Json point_json(const CostPoint& p)
     return {{"samples", p.samples},
             {"error", json_interval(p.error)},
             {"seconds", json_interval(p.seconds)},
-            {"trust", name_of(p.trust)}};
+            {"trust", name_of(p.trust)},
+            {"gain", json_interval(p.gain)}};
 }
 
 Json time_json(const TimeToError& t)
@@ -99,10 +101,10 @@ std::string identity(const CostSceneReport& scene, const CostCurveReport& c)
 }
 
 /// What every row of a curve ends with.
-std::string tail(const CostCurveReport& c)
+std::string tail(const CostCurveReport& c, const std::string& gain = ",,")
 {
-    return fmt::format(",{},{},{}\r\n", cells(c.slope), cells(c.slope_in_time),
-                       csv_field(c.reason));
+    return fmt::format(",{},{},{},{}\r\n", cells(c.slope), cells(c.slope_in_time),
+                       csv_field(c.reason), gain);
 }
 
 std::string rows(const CostSceneReport& scene, const CostCurveReport& c)
@@ -113,7 +115,7 @@ std::string rows(const CostSceneReport& scene, const CostCurveReport& c)
         text += identity(scene, c) +
                 fmt::format("point,{},{},{},{}", p.samples, cells(p.error), cells(p.seconds),
                             name_of(p.trust)) +
-                tail(c);
+                tail(c, cells(p.gain));
     for (const TimeToError& t : c.times)
         text += identity(scene, c) +
                 fmt::format("time_to,{},{},,,{},{}", csv_field(t.samples), csv_field(t.error),
@@ -149,6 +151,7 @@ std::string cost_json(const CostReport& report)
               {"version", report.version},
               {"command", report.command},
               {"seed", report.seed},
+              {"sampler", sampler_name(report.is_sobol)},
               {"threads", report.threads},
               {"machine", report.machine},
               {"instruction_set", report.instruction_set},
@@ -163,7 +166,7 @@ std::string cost_csv(const CostReport& report)
     std::string text =
         "scene,file,strategy,precision,kind,samples,error,error_low,error_high,seconds,seconds_low,"
         "seconds_high,mark,slope,slope_low,slope_high,slope_in_time,slope_in_time_low,"
-        "slope_in_time_high,reason\r\n";
+        "slope_in_time_high,reason,gain,gain_low,gain_high\r\n";
     for (const CostSceneReport& scene : report.scenes)
         for (const CostCurveReport& curve : scene.curves) text += rows(scene, curve);
     return text;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -29,6 +30,7 @@ std::string heading(const CostSceneReport& s, int threads)
     text += fmt::format("{}, {}, {} replicates", many(s.shading_points, "shading point"),
                         many(s.lights, "light"), s.replicates);
     if (s.copies > 1) text += fmt::format(" of {} copies", s.copies);
+    if (s.is_sobol) text += ", each a scrambled Sobol' sequence";
     text += fmt::format(", times on {}, {}{}", many(static_cast<std::size_t>(threads), "thread"),
                         short_duration(s.seconds), s.partial ? ", stopped early" : "");
     return wrapped(text);
@@ -148,6 +150,35 @@ std::string time_cell(const TimeToError& t)
     return text + (t.reach == Reach::extrapolated ? "*" : " ");
 }
 
+/// "12±1", "~12" where rare samples carry it.
+std::string gain_cell(const CostPoint& p)
+{
+    if (!std::isfinite(p.gain.value)) return "- ";
+    if (p.trust == Trust::rare_samples) return "~" + fmt::format("{:.3g}", p.gain.value);
+    return short_interval(p.gain);
+}
+
+/// Variance of independent samples over that of as many of a sequence.
+std::string gains(const CostSceneReport& scene)
+{
+    constexpr std::array<std::uint64_t, 4> samples{4, 16, 64, 256};
+    if (!scene.is_sobol) return "";
+    std::vector<std::string> head{"", "gain over independent, after"};
+    for (const std::uint64_t n : samples) head.push_back(fmt::format("{}", n));
+    TextTable table({head});
+    for (const CostCurveReport* c : in_order(scene)) {
+        if (c->points.empty()) continue;
+        std::vector<std::string> row{"", name_of(*c)};
+        for (const std::uint64_t n : samples) {
+            const auto at = std::find_if(c->points.begin(), c->points.end(),
+                                         [&](const CostPoint& p) { return p.samples == n; });
+            row.push_back(at == c->points.end() ? "- " : gain_cell(*at));
+        }
+        table.add(row);
+    }
+    return "\n" + table.text();
+}
+
 std::string times(const CostSceneReport& scene)
 {
     std::vector<std::string> head{"", "time to"};
@@ -174,7 +205,7 @@ std::string times(const CostSceneReport& scene)
 std::string cost_text(const CostSceneReport& scene, int threads)
 {
     std::string text = heading(scene, threads) + reference(scene.reference) + "\n" + slopes(scene) +
-                       errors(scene) + times(scene);
+                       errors(scene) + gains(scene) + times(scene);
     const std::vector<std::string> sentences = sentences_of(scene);
     if (!sentences.empty()) text += "\n";
     for (const std::string& sentence : sentences) text += wrapped(sentence);

@@ -1,6 +1,7 @@
 #include "mis/io/report_json.h"
 
 #include "mis/compare/sentences.h"
+#include "mis/compare/words.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/json_parts.h"
 
@@ -139,6 +140,7 @@ std::string report_json(const Report& report)
               {"version", report.version},
               {"command", report.command},
               {"seed", report.seed},
+              {"sampler", sampler_name(report.is_sobol)},
               {"threads", report.threads},
               {"machine", report.machine},
               {"instruction_set", report.instruction_set},

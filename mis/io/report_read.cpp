@@ -1,5 +1,6 @@
 #include "mis/io/report_read.h"
 
+#include "mis/compare/words.h"
 #include "mis/io/json_node.h"
 #include "mis/io/report_json.h"
 #include "mis/io/text_file.h"
@@ -261,6 +262,8 @@ Report parse_report(std::string_view content, const std::filesystem::path& file)
                   .machine = root["machine"].string(),
                   .instruction_set = root["instruction_set"].string()};
     report.seed = count(root["seed"]);
+    if (const auto sampler = root.find("sampler"))
+        report.is_sobol = one_of(*sampler, std::array{false, true}, sampler_name);
     report.threads = static_cast<int>(root["threads"].whole_number(1, most_int));
     report.partial = truth(root["partial"]);
     report.margin = size(root["margin"]);

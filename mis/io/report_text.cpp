@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_probes = 4;  // columns of them; the others are in --json
 
-std::string heading(const SceneReport& scene)
+std::string heading(const SceneReport& scene, const Report& report)
 {
     std::string text = scene.name.empty() ? scene.file : scene.name;
     if (scene.file != text && !scene.file.empty()) text += fmt::format(" ({})", scene.file);
@@ -22,6 +22,7 @@ std::string heading(const SceneReport& scene)
     text += fmt::format("{}, {}, {}, {}", many(scene.shading_points, "shading point"),
                         many(scene.lights, "light"), many(scene.surfaces, "surface"),
                         many(static_cast<std::size_t>(scene.replicates), "replicate"));
+    if (report.is_sobol) text += fmt::format(", Sobol' sequences of {:.0f} samples", report.at);
     if (scene.seconds > 0) text += fmt::format(", {}", short_duration(scene.seconds));
     text += scene.partial ? ", stopped early" : scene.settled ? ", settled" : ", not settled";
     return wrapped(text);
@@ -139,7 +140,7 @@ std::string paragraphs(const std::vector<std::string>& sentences)
 
 std::string scene_text(const SceneReport& scene, const Report& report)
 {
-    return heading(scene) + effects(scene) + "\n" + table(scene) + probes(scene) + "\n" +
+    return heading(scene, report) + effects(scene) + "\n" + table(scene) + probes(scene) + "\n" +
            paragraphs(sentences_of(scene, report.threads, report.margin));
 }
 

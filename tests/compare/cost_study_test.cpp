@@ -76,6 +76,39 @@ TEST(CostStudy, FindsTheVarianceThatQuadratureSays)
     }
 }
 
+/// The gain is the exact variance of independent samples, which quadrature says, over n times the
+/// squared error; and it grows with the samples.
+TEST(CostStudy, FindsTheGainOfSobolSequences)
+{
+    const Scene scene = two_probes();
+    const std::vector<CostChoice> choices = named({"uniform/light", "power/power", "all/light"});
+    const CostSceneReport report = study_of(scene, choices, {.is_sobol = true, .spp = 64});
+    ASSERT_TRUE(report.reference.exact);
+    EXPECT_TRUE(report.is_sobol);
+    for (std::size_t c = 0; c < choices.size(); ++c) {
+        double exact = 0;
+        for (const Probe& probe : scene.probes) {
+            const Predicted p = predict(scene, probe, std::span(&choices[c].strategy, 1))[0];
+            exact += p.variance / (p.mean * p.mean) / 2;
+        }
+        double last = 0;
+        for (const CostPoint& point : report.curves[c].points) {
+            if (point.samples < 4) continue;
+            const double squared = point.error.value * point.error.value;
+            EXPECT_NEAR(point.gain.value, exact / (double(point.samples) * squared),
+                        0.05 * point.gain.value)
+                << name_of(report.curves[c]) << " " << point.samples;
+            EXPECT_GT(point.gain.low, last);
+            EXPECT_LT(point.gain.low, point.gain.value);
+            last = point.gain.value > 1 ? 1 : last;
+        }
+        EXPECT_GT(report.curves[c].points.back().gain.low, 3);
+        EXPECT_NEAR(report.curves[c].points.front().gain.value, 1, 1e-9);  // of one sample
+    }
+    const CostSceneReport independent = study_of(scene, choices, {.spp = 4});
+    EXPECT_TRUE(std::isnan(independent.curves[0].points[2].gain.value));
+}
+
 TEST(CostStudy, MeasuresTheSameAgainstAPooledReferenceAsAgainstTheExactOne)
 {
     const Scene scene = two_probes();

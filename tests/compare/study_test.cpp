@@ -44,12 +44,10 @@ Study study_of(const Scene& scene, const std::vector<Strategy>& strategies,
     return run_study(lit, strategies, options, executor);
 }
 
-TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
+void expect_the_same_on_any_number_of_threads(const Scene& scene,
+                                              const std::vector<Strategy>& strategies,
+                                              const StudyOptions& options)
 {
-    const Scene scene = small_picture();
-    const auto strategies =
-        named({"uniform/power", "solid-angle/balance", "all/light", "brdf", "power/light/union"});
-    const StudyOptions options{.spp = 37};
     const Study one = study_of(scene, strategies, options);
     ASSERT_GT(one.report.shading_points, 500U);
     for (const int threads : {2, 3}) {
@@ -65,6 +63,38 @@ TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
             EXPECT_EQ(a.probes[0].mean, b.probes[0].mean);
             EXPECT_EQ(a.status, b.status);
         }
+    }
+}
+
+TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
+{
+    const Scene scene = small_picture();
+    const auto strategies =
+        named({"uniform/power", "solid-angle/balance", "all/light", "brdf", "power/light/union"});
+    for (const StudyOptions& options :
+         {StudyOptions{.spp = 37}, StudyOptions{.samples_per_scrambling = 8, .spp = 64}})
+        expect_the_same_on_any_number_of_threads(scene, strategies, options);
+}
+
+/// At one probe: the variance of a sample at n is what scramblings say, and far below that of
+/// independent samples; the means agree.
+TEST(Study, OfSobolSequencesHasTheirVariance)
+{
+    const Scene scene = probe_under(three_lights_apart(), grey_floor());
+    const auto strategies = named({"uniform/light", "power/power", "radiant-solid-angle/balance"});
+    const Study independent = study_of(scene, strategies, {.spp = 65536});
+    const Study sobol = study_of(scene, strategies, {.samples_per_scrambling = 64, .spp = 65536});
+    for (std::size_t s = 0; s < strategies.size(); ++s) {
+        const StrategyReport &a = independent.report.strategies[s], &b = sobol.report.strategies[s];
+        EXPECT_EQ(b.samples, 65536U);
+        EXPECT_EQ(b.status, Status::ranked) << b.reason;
+        EXPECT_LT(2 * b.variance.high, a.variance.low) << name_of(strategies[s]);
+        EXPECT_NEAR(b.probes[0].variance.value, b.variance.value, 0.1 * b.variance.value);
+        // The root of variance/samples is the error of the mean, which is that over replicates.
+        EXPECT_NEAR(b.probes[0].mean_se, std::sqrt(b.probes[0].variance.value / 65536),
+                    1e-6 * b.probes[0].mean_se);
+        EXPECT_LT(std::fabs(a.mean - b.mean),
+                  z_bound(1e-4, 3) * std::hypot(a.probes[0].mean_se, b.probes[0].mean_se));
     }
 }
 

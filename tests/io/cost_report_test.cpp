@@ -92,7 +92,7 @@ TEST(CostCsv, HasAsManyFieldsInEveryRow)
     std::istringstream lines(cost_csv(report));
     std::size_t rows = 0;
     for (std::string line; std::getline(lines, line); ++rows) {
-        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 19) << line;
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 22) << line;
         EXPECT_EQ(line.back(), '\r');
     }
     EXPECT_EQ(rows, 1U + 4 * (7 + 5) + 1);
@@ -111,6 +111,30 @@ TEST(CostText, FitsEightyColumnsAndMarksWhatIsNotMeasured)
           "all/power has no curve: past the budget", "nothing of it is extrapolated", "~",
           "4000 samples per point of all/power, pooled", "on 2 threads"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(CostText, ShowsTheGainOfSobolSequences)
+{
+    CostReport report = sample_report();
+    report.is_sobol = report.scenes[0].is_sobol = true;
+    std::vector<CostPoint>& points = report.scenes[0].curves[0].points;
+    for (CostPoint& point : points)
+        point.gain = {7.5 * double(point.samples), 7.4 * double(point.samples),
+                      7.6 * double(point.samples)};
+    const std::string text = cost_text(report.scenes[0], 2);
+    EXPECT_NE(text.find("Sobol' sequence"), std::string::npos) << text;
+    EXPECT_NE(text.find("gain over independent"), std::string::npos) << text;
+    EXPECT_NE(text.find("30±2%"), std::string::npos) << text;  // at 4
+    EXPECT_EQ(cost_text(sample_report().scenes[0], 2).find("gain"), std::string::npos);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(width_of(line), 80U) << line;
+    const Json json = Json::parse(cost_json(report));
+    EXPECT_EQ(SchemaCheck(described()).first_fault(json), "");
+    EXPECT_EQ(json["sampler"], "sobol");
+    EXPECT_EQ(json["scenes"][0]["strategies"][0]["points"][2]["gain"]["value"], 30);
+    EXPECT_EQ(emitted()["sampler"], "independent");
+    EXPECT_TRUE(emitted()["scenes"][0]["strategies"][0]["points"][2]["gain"]["low"].is_null());
+    EXPECT_NE(cost_csv(report).find(",30,29.6,30.4\r"), std::string::npos) << cost_csv(report);
 }
 
 TEST(CostText, SaysWhichReferenceIsExact)
