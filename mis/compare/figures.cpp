@@ -85,7 +85,9 @@ Figures figures_of(const StrategyMeasurements& s, double at)
     f.exact = s.all_samples_equal_reference;
     f.variance = f.exact ? 0 : s.pooled.variance;
     f.relative_variance = f.exact ? 0 : s.pooled.relative_variance;
-    f.samples_to_1_percent = std::max(1.0, f.relative_variance / one_percent_squared);
+    const double least_samples =
+        s.samples_per_observation;  // a part of a scrambling was not measured
+    f.samples_to_1_percent = std::max(least_samples, f.relative_variance / one_percent_squared);
     for (const ReplicateValues& replicate : s.replicates) {
         f.variances.push_back({replicate.variance});
         f.relative_variances.push_back(replicate.relative_variance);
@@ -95,7 +97,7 @@ Figures figures_of(const StrategyMeasurements& s, double at)
         f.seconds_at.push_back(time.seconds_per_sample + time.seconds_per_point / at);
         f.seconds_to_1_percent.push_back(time.seconds_for(f.samples_to_1_percent));
     }
-    if (f.samples_to_1_percent > 1 && !s.times.empty()) {
+    if (f.samples_to_1_percent > least_samples && !s.times.empty()) {
         double sampling = 0, all = 0;
         for (std::size_t i = 0; i < s.times.size(); ++i) {
             sampling += f.samples_to_1_percent * s.times[i].seconds_per_sample;

@@ -88,6 +88,8 @@ TEST(Study, OfSobolSequencesHasTheirVariance)
         const StrategyReport &a = independent.report.strategies[s], &b = sobol.report.strategies[s];
         EXPECT_EQ(b.samples, 65536U);
         EXPECT_EQ(b.status, Status::ranked) << b.reason;
+        // One scrambling is more than enough for 1 %; less than one was not measured.
+        EXPECT_GE(b.seconds_to_1_percent.value, 0.99 * 64 * b.seconds_per_sample.value);
         EXPECT_LT(2 * b.variance.high, a.variance.low) << name_of(strategies[s]);
         EXPECT_NEAR(b.probes[0].variance.value, b.variance.value, 0.1 * b.variance.value);
         // The root of variance/samples is the error of the mean, which is that over replicates.
