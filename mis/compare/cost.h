@@ -58,7 +58,7 @@ struct SquaredError {
 /// Mean relative squared error of a level, less the reference's.
 SquaredError squared_error(const CostLevel& level, const ReferenceError& reference);
 
-/// By how many times the variance of as many independent samples is larger (docs/theory.md (61)).
+/// By how many times the variance of as many independent samples is larger (docs/theory.md (71)).
 /// Unknown where the level has no spreads, or the reference does not tell its error.
 Interval gain_of(const CostLevel& level, const ReferenceError& reference);
 

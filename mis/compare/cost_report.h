@@ -26,7 +26,7 @@ struct CostPoint {
     Interval seconds;           ///< wall time on the stated threads, with preparation
     Trust trust = Trust::trusted;
     /// Of scrambled sequences: what as many independent samples have for variance, over theirs
-    /// (docs/theory.md (61)). Unknown of independent samples and below the reference.
+    /// (docs/theory.md (71)). Unknown of independent samples and below the reference.
     Interval gain{std::numeric_limits<double>::quiet_NaN(),
                   std::numeric_limits<double>::quiet_NaN(),
                   std::numeric_limits<double>::quiet_NaN()};

@@ -83,7 +83,7 @@ struct StrategyMeasurements {
     Strategy strategy;
     bool was_run = true;
     /// Samples whose mean is one observation: 1, or those of a scrambling. Variances are of one
-    /// sample: the observations' times this (docs/theory.md (60)); participations and the moments
+    /// sample: the observations' times this (docs/theory.md (70)); participations and the moments
     /// of probes are of observations.
     int samples_per_observation = 1;
     std::string not_run_reason;    ///< in words, where !was_run

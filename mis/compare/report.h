@@ -38,7 +38,7 @@ struct StrategyReport {
     std::vector<std::string> tied_with;           ///< names, by variance
     std::uint64_t samples = 0;                    ///< over all shading points
     double mean = 0, mean_se = 0;                 ///< luminance, over the shading points
-    Interval variance;                            ///< of one sample (docs/theory.md (60) where
+    Interval variance;                            ///< of one sample (docs/theory.md (70) where
                                                   ///< is_sobol); mean over the shading points
     Interval relative_variance;                   ///< design §1
     int timed_rounds = 0;                         ///< that the times come from

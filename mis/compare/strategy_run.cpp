@@ -148,7 +148,7 @@ StrategyMeasurements StrategyRun::measurements(std::span<const double> scale) co
     m.pooled.relative_variance *= lit;
     m.samples_per_observation = samples_per_observation_;
     m.pooled.samples *= static_cast<std::uint64_t>(samples_per_observation_);
-    m.pooled.variance *= samples_per_observation_;  // docs/theory.md (60)
+    m.pooled.variance *= samples_per_observation_;  // docs/theory.md (70)
     m.pooled.relative_variance *= samples_per_observation_;
     m.region_participation.resize(points_->regions);
     for (std::size_t t = 0; t < points_->figure_tiles; ++t) {

@@ -14,7 +14,7 @@ namespace mis {
 struct StudyOptions {
     std::uint64_t seed = 1;
     /// 0: independent samples. n: Sobol' sequences of n samples, each scrambled apart; variances
-    /// are over scramblings alone (docs/theory.md (60)), and there is no audit. n divides spp.
+    /// are over scramblings alone (docs/theory.md (70)), and there is no audit. n divides spp.
     std::uint64_t samples_per_scrambling = 0;
     double at = 16;                    ///< samples per point that the efficiency is for
     std::optional<std::uint64_t> spp;  ///< so many samples per point, for every strategy
