@@ -7,9 +7,14 @@ function planes_of(picture, width, height) {
   if (!bytes_read.has(picture.id)) bytes_read.set(picture.id, read_planes(picture, width, height));
   return bytes_read.get(picture.id);
 }
-async function read_planes(picture, width, height) {
-  const text = atob($("picture-" + picture.id).textContent), bytes = new Uint8Array(text.length);
+function bytes_of(base64) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
+  const text = atob(base64), bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+async function read_planes(picture, width, height) {
+  const bytes = bytes_of($("picture-" + picture.id).textContent);
   const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }), { premultiplyAlpha: "none", colorSpaceConversion: "none" });
   const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), context = canvas.getContext("2d", { willReadFrequently: true });
   context.drawImage(bitmap, 0, 0);
@@ -25,11 +30,9 @@ async function read_planes(picture, width, height) {
 
 /// 16-bit steps of a logarithm → values; 0 is 0, 65535 NaN.
 function values_of(high, low, code) {
+  const table = new Float32Array(65536).map((_, k) => k === 0 ? 0 : k === 65535 ? NaN : 2 ** (code.low + (k - 1) * code.step));
   const values = new Float32Array(high.length);
-  for (let i = 0; i < values.length; ++i) {
-    const k = high[i] * 256 + low[i];
-    values[i] = k === 0 ? 0 : k === 65535 ? NaN : 2 ** (code.low + (k - 1) * code.step);
-  }
+  for (let i = 0; i < values.length; ++i) values[i] = table[high[i] * 256 + low[i]];
   return values;
 }
 

@@ -60,11 +60,11 @@ function draw_answer() {
 async function draw_hero() {
   const scene = shown.scene, m = maps_now(), canvas = $("hero-picture");
   if (!m) return;
-  const measures = await measure_scene(scene), reference = await layer_of(scene, "reference");
+  const gain = await gain_of(scene), reference = await layer_of(scene, "reference");
   if (scene !== shown.scene) return;
   canvas.width = m.width;
   canvas.height = m.height;
-  canvas.getContext("2d").putImageData(paint_mean(m, reference.mean, reference, null, measures.gain, 2.2), 0, 0);
+  canvas.getContext("2d").putImageData(paint_mean(m, reference.mean, reference, null, gain, 2.2), 0, 0);
   $("hero-caption").textContent = "The scene: all strategies' samples together.";
   canvas.dataset.painted = "yes";
 }
@@ -102,6 +102,7 @@ function show_scene(scene) {
   shown.scene = scene;
   shown.strategy = null;
   ++view.ticket;  // what is still being painted is of another scene
+  Object.assign(view, { layer: "reference", before: null, painted: null, cross: null });
   const all = scene < 0;
   document.title = "mis: " + (all ? `${report.scenes.length} scenes` : scene_now().name || scene_now().file);
   $("over-all").hidden = !all;
@@ -109,8 +110,15 @@ function show_scene(scene) {
   draw_scene_tabs();
   if (all) return draw_over_all();
   for (const draw of [draw_answer, draw_ranking, draw_probes, draw_legend, draw_plots, draw_run, draw_effects, draw_checks]) draw();
-  if (pictures_are_here) draw_hero(), draw_layers();
+  if (pictures_are_here) show_pictures();
   else $("viewer").hidden = maps_now() === null;
+}
+
+/// The scene's picture first, then the viewer, once the browser has shown that.
+async function show_pictures() {
+  await draw_hero();
+  await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+  draw_layers();
 }
 
 function start_viewer() {
@@ -168,7 +176,7 @@ show_scene(shown.scene);
 document.addEventListener("DOMContentLoaded", () => {
   pictures_are_here = true;
   if (maps.some((m) => m !== null)) start_viewer();
-  if (shown.scene >= 0) draw_hero(), draw_layers();
+  if (shown.scene >= 0) show_pictures();
 });
 document.addEventListener("keydown", (e) => { if (e.key === "Escape") { hide_tip(); if (shown.strategy !== null) choose(shown.strategy); } });
 let laid_out_at = innerWidth;

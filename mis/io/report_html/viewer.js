@@ -4,16 +4,21 @@ const modes = [["picture", "Picture"], ["difference", "Difference to reference"]
 const view = { mode: "picture", layer: "reference", before: null, zoom: 1, x: 0, y: 0, cross: null, painted: null, ticket: 0 };
 const picture_layer = () => view.mode === "picture" || view.layer !== "reference" ? view.layer : maps_now().strategies[0]?.strategy ?? "reference";
 
-/// What stands still while the scene does: exposure 0, the range of the scales.
+const is_lit = (winners) => (i) => winners.kind[i] === 2;
+/// The factor that brings a scene's luminances to where the eye sees them: exposure 0.
+async function gain_of(scene) {
+  const m = maps[scene];
+  if (!m.gain) m.gain = .8 / quantile_of((await layer_of(scene, "reference")).mean, .95, is_lit(await layer_of(scene, "winners")));
+  return m.gain;
+}
+/// The ranges of a scene's scales, the same for all strategies.
 async function measure_scene(scene) {
   const m = maps[scene];
   if (m.measures) return m.measures;
-  const reference = await layer_of(scene, "reference"), winners = await layer_of(scene, "winners");
-  const is_lit = (i) => winners.kind[i] === 2;
   const best = best_of(report.scenes[scene]), first = m.strategies.find((s) => report.scenes[scene].strategies[s.strategy] === best) ?? m.strategies[0];
-  const variance = first ? (await layer_of(scene, first.strategy)).variance : reference.mean;
-  const middle = quantile_of(variance, .5, is_lit), top = quantile_of(variance, .99, is_lit);
-  m.measures = { gain: .8 / quantile_of(reference.mean, .95, is_lit), variances: [middle / 300, Math.max(top * 30, middle * 300)], differences: .5 };
+  const variance = first ? (await layer_of(scene, first.strategy)).variance : (await layer_of(scene, "reference")).mean;
+  const lit = is_lit(await layer_of(scene, "winners")), middle = quantile_of(variance, .5, lit), top = quantile_of(variance, .99, lit);
+  m.measures = { variances: [middle / 300, Math.max(top * 30, middle * 300)], differences: .5 };
   return m.measures;
 }
 
@@ -21,10 +26,11 @@ async function measure_scene(scene) {
 async function repaint() {
   const scene = shown.scene, m = maps_now(), ticket = ++view.ticket;
   if (!m) return;
+  await gain_of(scene);
   const measures = await measure_scene(scene), layer = picture_layer();
   const reference = await layer_of(scene, "reference"), winners = await layer_of(scene, "winners"), own = await layer_of(scene, layer);
   if (ticket !== view.ticket) return;
-  const gain = measures.gain * 2 ** Number($("exposure").value), of = report.scenes[scene];
+  const gain = maps[scene].gain * 2 ** Number($("exposure").value), of = report.scenes[scene];
   let image;
   if (view.mode === "winner") image = paint_winners(m, winners[$("winner-by").value], winners.kind, of.strategies, shown.strategy);
   else if (view.mode === "variance" && own.variance) image = paint_variance(m, own, winners.kind, measures.variances);
