@@ -25,7 +25,7 @@ constexpr double most_apart = 4;
 /// A variance below the rounding of single precision says no more than that.
 LogCost log_cost(const PlaceSamples& place, double cost)
 {
-    const double rounding = std::numeric_limits<float>::epsilon() / 2,
+    const double rounding = double(std::numeric_limits<float>::epsilon()) / 2,
                  least = rounding * rounding * place.squared_means;
     if (!std::isfinite(place.variance) || place.variance + least <= 0) return {};
     if (place.variance <= least)

@@ -225,7 +225,7 @@ Json lights(const Blocks& blocks, PagePictures& page, const std::string& prefix)
         }
         Bytes& share = planes.add();
         for (std::size_t i = 0; i < planes.size(); ++i) {
-            share[i] = byte_of(at(i)[k].share);
+            share[i] = byte_of(double(at(i)[k].share));
             if (at(i)[k].light >= 0) used.insert(at(i)[k].light);
         }
     }

@@ -10,7 +10,7 @@ import { Page } from "./chromium.mjs";
 
 const [mis, scenes, chromium] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "mis-report-"));
-const hostile = "<script>alert(1)</script> \"quoted\" & 'single' \u202Eabc ünï שלום";
+const hostile = "<script>alert(1)</script><img src=x onerror=alert(2)> \"quoted\" & 'single' \u202Eabc ünï שלום";
 
 function compare(name, ...words) {
   const out = join(folder, name);
@@ -290,7 +290,11 @@ async function several_scenes() {
     await page.value(`document.querySelectorAll("#scenes button")[${k}].click()`);
     if (k > 0) await page.until(`document.querySelector("#picture").dataset.painted && shown.scene === ${k - 1}`);
   }
-  assert.equal(await page.value("window.alerted ?? document.querySelectorAll('img').length"), 0);
+  await page.value('document.querySelectorAll("#scenes button")[1].click()');
+  assert.equal(await page.value('document.querySelector("#scene-name bdi").textContent'), hostile);
+  assert.ok((await page.value('document.querySelector("#run").textContent')).includes(file));
+  assert.equal(await page.value("document.querySelectorAll('img, b:not(.brand b)').length"), 0);
+  await page.until('document.querySelector("#picture").dataset.painted');
   nothing_went_wrong(report);
   console.log("ok: several scenes, and names that are markup show as text");
 }

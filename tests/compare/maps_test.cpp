@@ -14,12 +14,13 @@
 namespace mis {
 namespace {
 
-/// A floor under three lights, seen with sky above it.
+/// A floor under three lights, seen with sky above it, and a board that turns its back on them.
 Scene floor_and_sky()
 {
     Scene scene = probe_under(three_lights_apart(), grey_floor());
     scene.camera = Camera{.position = {0, 1, 6}, .target = {0, 1, 0}, .resolution = {40, 24}};
     scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
+    scene.surfaces.push_back({Quad{{1, 0.2, 4}, {Vec3<double>{0.8, 0, 0}, {0, 0.8, 0}}}, 0});
     return scene;
 }
 
@@ -66,6 +67,7 @@ TEST_F(MapsOfAFloor, TellSurfacesFromWhatLiesBehindThem)
         return static_cast<std::size_t>(std::count(maps.kind.begin(), maps.kind.end(), kind));
     };
     EXPECT_GT(count(PixelKind::background), 100U);
+    EXPECT_GT(count(PixelKind::dark), 5U);
     EXPECT_EQ(count(PixelKind::background), study.report.background_pixels);
     EXPECT_EQ(count(PixelKind::lit) + count(PixelKind::dark), study.report.shading_points);
 }
