@@ -279,12 +279,12 @@ async function several_scenes() {
   const tabs = await page.value('[...document.querySelectorAll("#scenes button")].map((b) => b.textContent)');
   assert.deepEqual(tabs, ["All scenes", hostile, ...report.json.scenes.slice(1).map((s) => s.name)]);
   const cells = await page.value('document.querySelectorAll("#matrix tbody td").length'), names = report.json.scenes[0].strategies.length;
-  assert.equal(cells, 3 * (names + 1));
+  assert.equal(cells, names * (3 + 1));
   for (const s of report.json.overall) assert.ok((await text("#over-all-table")).includes(s.name));
   for (let figure = 0; figure < 4; ++figure) {
     await page.value(`{ const s = document.querySelector("#matrix-figure"); s.value = "${figure}"; s.onchange(); }`);
     const shown = await page.value('[...document.querySelectorAll("#matrix tbody tr")].map((r) => [...r.cells].map((c) => c.innerText))');
-    for (const row of shown) assert.ok(row.includes("1 ×") || row.includes("exact"), `a best one in ${row}`);
+    for (const k of [1, 2, 3]) assert.ok(shown.some((row) => ["1 ×", "exact"].includes(row[k])), `a best one on scene ${k}`);
   }
   for (const k of [1, 2, 3, 0]) {
     await page.value(`document.querySelectorAll("#scenes button")[${k}].click()`);

@@ -27,12 +27,9 @@ function draw_matrix() {
   const names = [...new Set(report.scenes.flatMap((s) => s.strategies.map((t) => t.name)))];
   const order = new Map(report.overall.map((o) => [o.name, o.rank_by_efficiency]));
   names.sort((a, b) => (order.get(a) ?? 1e9) - (order.get(b) ?? 1e9));
-  const heads = [{ text: "Scene", className: "text" }, ...names.map((n) => ({ text: make("bdi", {}, n), className: "strategy" }))];
-  const rows = report.scenes.map((scene, i) => {
-    const values = ranked(scene).map(figure.of).filter((v) => v !== null), least = Math.min(...values);
-    const name = cell(make("button", { type: "button", className: "pick", onclick: () => show_scene(i) }, make("bdi", {}, scene.name || scene.file)), "text");
-    return make("tr", {}, name, ...names.map((n) => matrix_cell(by_name(scene, n), figure, least)));
-  });
+  const least = report.scenes.map((scene) => Math.min(...ranked(scene).map(figure.of).filter((v) => v !== null)));
+  const heads = [{ text: "Strategy", className: "text" }, ...report.scenes.map((scene, i) => ({ className: "scene", text: make("button", { type: "button", onclick: () => show_scene(i) }, make("bdi", {}, scene.name || scene.file)) }))];
+  const rows = names.map((n) => make("tr", {}, cell(name_text(n), "text"), ...report.scenes.map((scene, i) => matrix_cell(by_name(scene, n), figure, least[i]))));
   const table = table_of(`Scenes and strategies: ${figure.name}`, heads, rows);
   table.classList.add("matrix");
   $("matrix").replaceChildren(table);
@@ -48,7 +45,7 @@ function matrix_cell(s, figure, least) {
 }
 
 function draw_over_all() {
-  $("over-all-verdict").textContent = report.sentences[0] ?? "";
+  $("over-all-verdict").replaceChildren(...sentence_parts(report.sentences[0] ?? "", new Set(report.overall.map((o) => o.name))));
   const list = report.overall.slice().sort((a, b) => a.rank_by_efficiency - b.rank_by_efficiency);
   const ratio = (x) => x.value === null ? "–" : [number(x.value) + " ×", note(error_of(x))];
   $("over-all-table").replaceChildren(list.length === 0 ? "" : table_of("Overall ranking", [{ text: "Rank", className: "text" }, { text: "Strategy", className: "text" }, { text: "Time to 1 %" }, { text: "Variance × time" }, { text: "Variance" }, { text: "Rank by variance" }],
