@@ -36,12 +36,13 @@ StudyOptions study_options(const CompareOptions& options, Progress& progress)
     study.stop = &interrupt_flag();
     study.traps_invalid = options.trap;
     study.progress = [&progress](double done, const SceneReport& so_far) {
+        if (!progress.is_due()) return;
         std::string text = so_far.name.empty() ? so_far.file : so_far.name;
         const StrategyReport* best = nullptr;
         for (const StrategyReport& s : so_far.strategies)
             if (s.rank_by_efficiency == 1) best = &s;
         if (best != nullptr) text += ", ahead: " + name_of(best->strategy);
-        progress.show(text, done);
+        progress.show(text, done, so_far.strategies.empty() ? "" : ranking_text(so_far));
     };
     return study;
 }

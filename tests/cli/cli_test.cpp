@@ -368,5 +368,26 @@ TEST(CommandLine, LeavesNoHalfOfAReportWhereTheDiskIsFull)
     EXPECT_EQ(files_in(out), (std::set<std::string>{"report.json", "strategies.csv"}));
 }
 
+/// What shows how far a run is goes to terminals alone, and is wiped before the result.
+TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
+{
+    const std::string run = "compare " + scene("single") + " --resolution 24x16 --spp 64";
+    const Outcome piped = mis_with(run);
+    EXPECT_EQ(piped.out.find('\x1b'), std::string::npos);
+    EXPECT_EQ(piped.error.find('\x1b'), std::string::npos);
+    const TemporaryFolder folder;
+    const std::string out = (folder / "out").string();
+    ASSERT_EQ(std::system(("script -qec \"'" + program_file().string() + "' " + run +
+                           "\" /dev/null >'" + out + "' </dev/null")
+                              .c_str()),
+              0);
+    const std::string shown = text_of(out);
+    const std::size_t wiped = shown.rfind("\x1b[J");
+    ASSERT_NE(wiped, std::string::npos);
+    EXPECT_LT(shown.find("[.."), wiped);  // the bar
+    EXPECT_EQ(shown.find("[..", wiped), std::string::npos);
+    EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mis
