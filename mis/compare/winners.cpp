@@ -19,6 +19,9 @@ struct LogCost {
     double value = 0, carried_by = 0, mean = 0, mean_se2 = 0;
 };
 
+/// Of strategies that are far behind so much is known from a few large samples.
+constexpr double fewest_of_others = 4;
+
 /// Means of the same quantity that are further apart, in standard errors, are not both right.
 constexpr double most_apart = 4;
 
@@ -48,21 +51,20 @@ struct Candidate {
 Candidate candidate(const std::vector<LogCost>& logs, const std::vector<int>& groups)
 {
     std::size_t best = 0;
-    double carried_by = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < logs.size(); ++s) {
+        if (logs[s].carried_by < fewest_of_others) return {};
         if (logs[s].value < logs[best].value) best = s;
-        carried_by = std::min(carried_by, logs[s].carried_by);
     }
-    if (carried_by < few_samples) return {};
-    for (const LogCost& other : logs)
-        if (!agree(logs[best], other)) return {};
-    double t = std::numeric_limits<double>::infinity();
-    for (std::size_t s = 0; s < logs.size(); ++s)
-        if (groups[s] != groups[best])
-            t = std::min(t, (logs[s].value - logs[best].value) /
-                                std::sqrt(1 / logs[s].carried_by + 1 / logs[best].carried_by));
-    const double p = static_cast<double>(logs.size()) * upper_tail(t, carried_by - 1);
-    return {static_cast<int>(best), std::min(1.0, p)};
+    if (logs[best].carried_by < few_samples) return {};
+    double p = 0;
+    for (std::size_t s = 0; s < logs.size(); ++s) {
+        if (!agree(logs[best], logs[s])) return {};
+        if (groups[s] == groups[best]) continue;
+        const double t = (logs[s].value - logs[best].value) /
+                         std::sqrt(1 / logs[s].carried_by + 1 / logs[best].carried_by);
+        p = std::max(p, upper_tail(t, std::min(logs[s].carried_by, logs[best].carried_by) - 1));
+    }
+    return {static_cast<int>(best), std::min(1.0, static_cast<double>(logs.size()) * p)};
 }
 
 /// The largest p-value that stands for a find (Benjamini and Hochberg 1995); below 0 where none

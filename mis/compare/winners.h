@@ -26,12 +26,13 @@ struct PlaceSamples {
 /// The strategy of least variance × cost at every place, or −1 where that is undecided. at(place,
 /// strategy): its samples. costs: [strategy], > 0; all 1 for the variance alone. groups:
 /// [strategy]; it must surely lead those of other groups alone, so that twins do not keep a place
-/// undecided. A place's p-value is the number of strategies times that of its closest pair, by
-/// Student's t on the difference of log variances (docs/theory.md, eq. 56); winners are then told
-/// by Benjamini and Hochberg (1995), for `false_winners`. Undecided, too, is a place where one of
-/// the strategies has a variance that fewer than ten samples carry (pool.h), as where it never met
-/// a light, and one where the best one's mean is four standard errors from another's: it missed
-/// something.
+/// undecided.
+/// A place's p-value is the number of strategies times that of its closest pair, by Student's t on
+/// the difference of log variances (docs/theory.md, eq. 56); winners are then told by Benjamini and
+/// Hochberg (1995), for `false_winners`. Undecided, too, is a place where the best one's variance
+/// is carried by fewer than ten samples (pool.h), or another's by fewer than four, as where it
+/// never met a light, and one where the best one's mean is four standard errors from another's: it
+/// missed something.
 std::vector<int> winners_of(
     std::size_t places, const std::vector<double>& costs, const std::vector<int>& groups,
     const std::function<PlaceSamples(std::size_t place, std::size_t strategy)>& at,

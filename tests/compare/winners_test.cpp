@@ -99,18 +99,21 @@ TEST(Winners, WeighVarianceByCost)
 TEST(Winners, AreNotThoseThatMissedSomething)
 {
     Random bits(5);
-    Moments rare;
-    for (int i = 0; i < 400; ++i) rare.add(i < 3 ? 100 : 0);
-    PlaceSamples carried_by_three;
+    Moments rare, quiet;
+    for (int i = 0; i < 400; ++i) rare.add(i < 3 ? 100 : 0), quiet.add(i < 6 ? 1.1 : 1);
+    PlaceSamples carried_by_three, carried_by_six;
     carried_by_three.add(rare);
-    std::vector<std::vector<PlaceSamples>> low_mean, few;
+    carried_by_six.add(quiet);
+    std::vector<std::vector<PlaceSamples>> low_mean, few, lucky;
     for (int p = 0; p < 50; ++p) {
         low_mean.push_back(
             {exponential_place(bits, 0.01, 400, 0.2), exponential_place(bits, 4, 400)});
         few.push_back({exponential_place(bits, 0.01, 400), carried_by_three});
+        lucky.push_back({carried_by_six, exponential_place(bits, 4, 400)});
     }
     EXPECT_EQ(decided(told(low_mean, {1, 1}, {0, 1})), 0U);
     EXPECT_EQ(decided(told(few, {1, 1}, {0, 1})), 0U);
+    EXPECT_EQ(decided(told(lucky, {1, 1}, {0, 1})), 0U);
 }
 
 TEST(Winners, AreToldForSquaresOfTwoThousandSamples)
