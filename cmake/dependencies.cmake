@@ -1,8 +1,10 @@
 # What is there decides which libraries are built; the program and the tests need all of them, a bare core only GLM.
 if(MIS_PROGRAM OR MIS_TESTS OR MIS_BENCH OR MIS_FUZZ)
   set(need REQUIRED)
+  set(need_file REQUIRED)
 else()
   set(need QUIET)
+  set(need_file "")
 endif()
 
 find_package(glm REQUIRED)
@@ -21,7 +23,10 @@ find_package(nlohmann_json ${need})
 find_package(assimp ${need})
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 find_package(OpenImageIO MODULE ${need})
-if(TARGET Boost::headers AND fmt_FOUND AND nlohmann_json_FOUND AND assimp_FOUND AND OpenImageIO_FOUND)
+# Plots of the report: one file that the build embeds.
+find_file(MIS_D3_FILE d3.min.js PATHS /usr/share/nodejs/d3/dist PATH_SUFFIXES nodejs/d3/dist ${need_file})
+mark_as_advanced(MIS_D3_FILE)
+if(TARGET Boost::headers AND fmt_FOUND AND nlohmann_json_FOUND AND assimp_FOUND AND OpenImageIO_FOUND AND MIS_D3_FILE)
   set(MIS_HAS_IO ON)
 endif()
 

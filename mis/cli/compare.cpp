@@ -5,6 +5,7 @@
 #include "mis/cli/ready.h"
 #include "mis/cli/report_folder.h"
 #include "mis/cli/strategy_list.h"
+#include "mis/compare/maps.h"
 #include "mis/compare/overall.h"
 #include "mis/compare/study.h"
 #include "mis/io/report_csv.h"
@@ -17,6 +18,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace mis::cli {
 
@@ -35,12 +39,13 @@ StudyOptions study_options(const CompareOptions& options, Progress& progress)
     study.stop = &interrupt_flag();
     study.traps_invalid = options.trap;
     study.progress = [&progress](double done, const SceneReport& so_far) {
+        if (!progress.is_due()) return;
         std::string text = so_far.name.empty() ? so_far.file : so_far.name;
         const StrategyReport* best = nullptr;
         for (const StrategyReport& s : so_far.strategies)
             if (s.rank_by_efficiency == 1) best = &s;
         if (best != nullptr) text += ", ahead: " + name_of(best->strategy);
-        progress.show(text, done);
+        progress.show(text, done, so_far.strategies.empty() ? "" : ranking_text(so_far));
     };
     return study;
 }
@@ -71,11 +76,12 @@ void check_options(const CompareOptions& options)
     check(options.output);
 }
 
-void write_outputs(const CompareOptions& options, const Report& report)
+void write_outputs(const CompareOptions& options, const Report& report,
+                   std::span<const std::optional<Maps>> maps)
 {
     if (!options.output.json.empty()) write_report_json(report, options.output.json);
     if (!options.output.csv.empty()) write_report_csv(report, options.output.csv);
-    if (!options.out.empty()) write_report_folder(report, options.out, options.force);
+    if (!options.out.empty()) write_report_folder(report, maps, options.out, options.force);
 }
 
 }  // namespace
@@ -105,20 +111,26 @@ int run_compare(const CompareOptions& options)
             fmt::print(stderr, "left out: {}\n", reason);
 
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
+    std::vector<std::optional<Maps>> maps;
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
     if (options.scenes.size() > 1)  // a wrong one is found before the first is measured
         for (const std::string& file : options.scenes)
-            check_memory(read_scene_for(file, options.run), selection.strategies.size());
+            check_memory(read_scene_for(file, options.run), selection.strategies.size(),
+                         !options.out.empty());
     for (const std::string& file : options.scenes) {
         const ReadyScene ready(file, options.run);
-        check_memory(ready.scene, selection.strategies.size());
+        check_memory(ready.scene, selection.strategies.size(), !options.out.empty());
         report.threads = ready.executor.threads;
         const Study study = run_study(ready.lit, selection.strategies,
                                       study_options(options, progress), ready.executor);
         progress.clear();
         if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
         report.scenes.push_back(study.report);
+        if (!options.out.empty())
+            maps.push_back(ready.scene.camera ? std::optional(maps_of(ready.lit, study, options.at,
+                                                                      ready.executor))
+                                              : std::nullopt);
         report.partial = report.partial || study.report.partial;
         if (shows_table) {
             fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
@@ -129,7 +141,7 @@ int run_compare(const CompareOptions& options)
     }
     report.overall = rank_overall(report.scenes);
     if (shows_table) fmt::print("{}", overall_text(report));
-    write_outputs(options, report);
+    write_outputs(options, report, maps);
     return report.partial ? interrupted : ok;
 }
 

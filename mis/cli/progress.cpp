@@ -1,5 +1,7 @@
 #include "mis/cli/progress.h"
 
+#include "mis/io/text_layout.h"
+
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -11,10 +13,23 @@ namespace mis::cli {
 
 namespace {
 
-std::size_t terminal_width()
+struct TerminalSize {
+    std::size_t columns = 80, rows = 24;
+};
+
+TerminalSize terminal_size()
 {
     winsize size{};
-    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col <= 20) return {};
+    return {size.ws_col, size.ws_row};
+}
+
+/// The first lines of a text, as many as fit, each ended by a line feed; how many they are.
+std::string first_lines(const std::string& text, std::size_t most, std::size_t& count)
+{
+    std::size_t end = 0;
+    for (count = 0; count < most && end < text.size(); ++count) end = text.find('\n', end) + 1;
+    return text.substr(0, end);
 }
 
 }  // namespace
@@ -24,12 +39,23 @@ Progress::Progress(bool is_wanted)
 {
 }
 
-void Progress::show(const std::string& what, double done)
+bool Progress::is_due() const
 {
-    if (!is_shown_) return;
-    const auto now = std::chrono::steady_clock::now();
-    if (is_drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
+    return is_shown_ && (!is_drawn_ || std::chrono::steady_clock::now() - last_ >=
+                                           std::chrono::milliseconds(100));
+}
+
+/// To the beginning of what was drawn last, which is wiped.
+void Progress::go_back() const
+{
+    if (lines_above_ > 0) fmt::print(stderr, "\x1b[{}A", lines_above_);
+    fmt::print(stderr, "\r\x1b[J");
+}
+
+void Progress::show(const std::string& what, double done, const std::string& table)
+{
+    if (!is_due()) return;
+    const auto now = last_ = std::chrono::steady_clock::now();
     const double share = std::clamp(done, 0.0, 1.0);
     const double passed = std::chrono::duration<double>(now - start_).count();
     const std::string left =
@@ -38,8 +64,12 @@ void Progress::show(const std::string& what, double done)
     const auto filled = static_cast<std::size_t>(share * bar);
     std::string line = fmt::format("[{}{}] {:3.0f} %  {}  {}", std::string(filled, '#'),
                                    std::string(bar - filled, '.'), share * 100, left, what);
-    line.resize(std::min(line.size(), terminal_width() - 1));
-    fmt::print(stderr, "\r\x1b[K{}", line);
+    const TerminalSize terminal = terminal_size();
+    line.resize(std::min(line.size(), terminal.columns - 1));
+    if (is_drawn_) go_back();
+    const bool has_room = terminal.columns > text_columns && terminal.rows > 8;
+    fmt::print(stderr, "{}{}", first_lines(table, has_room ? terminal.rows - 2 : 0, lines_above_),
+               line);
     std::fflush(stderr);
     is_drawn_ = true;
 }
@@ -47,9 +77,10 @@ void Progress::show(const std::string& what, double done)
 void Progress::clear()
 {
     if (!is_drawn_) return;
-    fmt::print(stderr, "\r\x1b[K");
+    go_back();
     std::fflush(stderr);
     is_drawn_ = false;
+    lines_above_ = 0;
 }
 
 }  // namespace mis::cli

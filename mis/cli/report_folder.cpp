@@ -2,12 +2,17 @@
 
 #include "mis/cli/options.h"
 #include "mis/io/atomic_file.h"
+#include "mis/io/maps_exr.h"
+#include "mis/io/page_pictures.h"
 #include "mis/io/report_csv.h"
+#include "mis/io/report_html.h"
 #include "mis/io/report_json.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
+#include <vector>
 
 namespace mis::cli {
 
@@ -31,7 +36,49 @@ void check_report_folder(const std::string& folder, bool force)
         throw UsageError("--out: found " + parent.string() + ", which cannot be written to");
 }
 
-void write_report_folder(const Report& report, const std::string& folder, bool force)
+namespace {
+
+bool is_maps_file(const fs::path& file)
+{
+    const std::string name = file.filename().string();
+    return name == "maps.exr" || (name.starts_with("maps-") && name.ends_with(".exr"));
+}
+
+void remove_maps(const fs::path& folder)
+{
+    std::error_code ignored;
+    std::vector<fs::path> old;
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+        if (is_maps_file(entry.path())) old.push_back(entry.path());
+    for (const fs::path& file : old) fs::remove(file, ignored);
+}
+
+void write_maps(const Report& report, std::span<const std::optional<Maps>> maps,
+                const fs::path& folder)
+{
+    remove_maps(folder);
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        if (maps[i])
+            write_maps_exr(
+                report, i, *maps[i],
+                folder / (maps.size() == 1 ? "maps.exr" : fmt::format("maps-{}.exr", i + 1)));
+}
+
+std::vector<std::optional<PagePictures>> pictures_of(std::span<const std::optional<Maps>> maps)
+{
+    std::vector<std::optional<PagePictures>> pictures;
+    for (const std::optional<Maps>& m : maps)
+        pictures.push_back(
+            m ? std::optional(page_pictures(*m, most_page_values / static_cast<double>(maps.size()),
+                                            fmt::format("{}-", pictures.size())))
+              : std::nullopt);
+    return pictures;
+}
+
+}  // namespace
+
+void write_report_folder(const Report& report, std::span<const std::optional<Maps>> maps,
+                         const std::string& folder, bool force)
 {
     check_report_folder(folder, force);
     std::error_code error;
@@ -39,6 +86,8 @@ void write_report_folder(const Report& report, const std::string& folder, bool f
     if (error) throw WriteError(folder + ": cannot be made: " + error.message());
     write_report_json(report, (fs::path(folder) / "report.json").string());
     write_report_csv(report, (fs::path(folder) / "strategies.csv").string());
+    write_report_html(report, pictures_of(maps), (fs::path(folder) / "report.html").string());
+    write_maps(report, maps, folder);
 }
 
 }  // namespace mis::cli

@@ -8,10 +8,6 @@
 namespace mis {
 namespace {
 
-/// A point's variance is rare samples' when fewer than so many carry it: ten is where its standard
-/// error is a third.
-constexpr double few_samples = 10;
-
 /// Adds the samples of `point`, each d² times `weight`.
 void add(Participation& sum, const Moments& point, double weight)
 {

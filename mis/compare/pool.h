@@ -7,6 +7,10 @@
 
 namespace mis {
 
+/// A point's variance is rare samples' when fewer than so many carry it: ten is where its standard
+/// error is a third.
+inline constexpr double few_samples = 10;
+
 /// One strategy's figures over an image, from the moments of each of its shading points.
 /// scale: μ² + ε² of each point, which `relative_variance` divides by; the same numbers for every
 /// strategy (so μ is a reference pooled from all of them, not the strategy's own noisy mean). Where

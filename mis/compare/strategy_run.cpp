@@ -212,27 +212,36 @@ void StrategyRun::add_costs(StrategyMeasurements& m) const
     m.rays = static_cast<std::uint64_t>(std::llround(rays));
 }
 
-std::vector<double> pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
-                                 std::size_t points)
+std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs)
 {
-    std::vector<double> sums(points);
-    double weights = 0;
-    for (const auto& run : runs) {
-        if (!run || run->samples() == 0) continue;
+    std::vector<double> weights(runs.size());
+    double sum = 0;
+    for (std::size_t s = 0; s < runs.size(); ++s) {
+        if (!runs[s] || runs[s]->samples() == 0) continue;
         double variance = 0, mean = 0;
-        for (const PointResult& result : run->results()) {
+        for (const PointResult& result : runs[s]->results()) {
             if (result.luminance.count > 1) variance += result.luminance.variance();
             mean += std::abs(result.luminance.mean);
         }
-        const double n = std::max<double>(1, static_cast<double>(run->results().size()));
+        const double n = std::max<double>(1, static_cast<double>(runs[s]->results().size()));
         const double floor = 1e-12 * (mean / n) * (mean / n) + 1e-300;
-        const double weight = static_cast<double>(run->samples()) / (variance / n + floor);
-        weights += weight;
-        for (std::size_t p = 0; p < sums.size(); ++p)
-            sums[p] += weight * run->results()[p].luminance.mean;
+        weights[s] = static_cast<double>(runs[s]->samples()) / (variance / n + floor);
+        sum += weights[s];
     }
-    for (double& sum : sums) sum = weights > 0 ? sum / weights : 0;
-    return sums;
+    for (double& weight : weights) weight = sum > 0 ? weight / sum : 0;
+    return weights;
+}
+
+std::vector<double> pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
+                                 std::size_t points)
+{
+    const std::vector<double> weights = pooling_weights(runs);
+    std::vector<double> means(points);
+    for (std::size_t s = 0; s < runs.size(); ++s)
+        if (weights[s] > 0)
+            for (std::size_t p = 0; p < points; ++p)
+                means[p] += weights[s] * runs[s]->results()[p].luminance.mean;
+    return means;
 }
 
 }  // namespace mis

@@ -51,6 +51,9 @@ public:
     /// The first sample, tile by tile, that is no number; nothing where all are.
     std::optional<SampleName> first_invalid() const;
 
+    /// Samples of this tile that were no numbers.
+    std::uint64_t invalid_at(std::size_t tile) const { return tiles_[tile].cost.invalid; }
+
     /// scale: μ² + ε² of every point.
     StrategyMeasurements measurements(std::span<const double> scale) const;
 
@@ -83,8 +86,11 @@ private:
     std::uint64_t samples_ = 0;
 };
 
-/// μ of every point: the means of the strategies that were run (others are null), each by its
-/// samples over its variance. All 0 where none was.
+/// What each strategy's means weigh in the reference: its samples over its variance; they sum to 1.
+/// 0 for those that were not run (null).
+std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs);
+
+/// μ of every point: the means of the strategies by pooling_weights(). All 0 where none was run.
 std::vector<double> pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
                                  std::size_t points);
 

@@ -23,29 +23,57 @@ std::string module_beside_program()
     return program.parent_path().parent_path() / "lib" / MIS_IMAGE_MODULE;
 }
 
-/// The module's only function; the module stays loaded. Null where it is not found: dlerror() says
-/// why.
-WriteExrPixels* open_module()
+/// The module, which stays loaded; null where it is not found.
+void* open_module()
 {
     void* module = dlopen(MIS_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
     if (!module) module = dlopen(module_beside_program().c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!module) module = dlopen(MIS_MODULE_DIR "/" MIS_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
-    return module ? reinterpret_cast<WriteExrPixels*>(dlsym(module, "mis_write_exr_pixels"))
-                  : nullptr;
+    return module;
+}
+
+/// A function of the module; null where there is none: dlerror() says why.
+template <class F> F* function_of_module(const char* name)
+{
+    static void* const module = open_module();
+    return module ? reinterpret_cast<F*>(dlsym(module, name)) : nullptr;
 }
 
 }  // namespace
 
-void write_exr(const std::filesystem::path& file, const Image& image,
+void write_exr(const std::filesystem::path& file, const LayeredImage& image,
                const std::map<std::string, std::string>& metadata)
 {
     AtomicFile whole(file.string());
-    static WriteExrPixels* const write_pixels = open_module();
-    if (!write_pixels) fail(file, dlerror());
+    const auto write_layers = function_of_module<WriteExrLayers>("mis_write_exr_layers");
+    if (!write_layers) fail(file, dlerror());
     std::string reason;
-    write_pixels(whole.temporary_path(), image, metadata, reason);
+    write_layers(whole.temporary_path(), image, metadata, reason);
     if (!reason.empty()) fail(file, reason);
     whole.commit();
+}
+
+void write_exr(const std::filesystem::path& file, const Image& image,
+               const std::map<std::string, std::string>& metadata)
+{
+    const auto fill_row = [&image](int y, std::span<float> row) {
+        const auto width = static_cast<std::size_t>(image.width);
+        for (std::size_t x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c)
+                row[3 * x + static_cast<std::size_t>(c)] =
+                    image.pixels[static_cast<std::size_t>(y) * width + x][c];
+    };
+    write_exr(file, LayeredImage{image.width, image.height, {"R", "G", "B"}, fill_row}, metadata);
+}
+
+std::string png_bytes(int width, int height, std::span<const std::uint8_t> grey)
+{
+    const auto encode = function_of_module<EncodePng>("mis_encode_png");
+    if (!encode) fail("a picture", dlerror());
+    std::string bytes, reason;
+    encode(width, height, grey, bytes, reason);
+    if (!reason.empty()) fail("a picture", reason);
+    return bytes;
 }
 
 }  // namespace mis

@@ -1,16 +1,27 @@
 #pragma once
 
 #include "mis/engine/render.h"
+#include "mis/io/layered_image.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 
 namespace mis {
 
 /// Writes a picture as OpenEXR: 32-bit float, linear RGB, with `metadata` as attributes. To a
-/// temporary name, then renamed. Throws std::runtime_error with the file and the reason.
+/// temporary name, then renamed. Throws WriteError with the file and the reason.
 void write_exr(const std::filesystem::path& file, const Image& image,
                const std::map<std::string, std::string>& metadata);
+
+/// The same of named layers.
+void write_exr(const std::filesystem::path& file, const LayeredImage& image,
+               const std::map<std::string, std::string>& metadata);
+
+/// A grey picture of 8 bits, row by row from the top, as the bytes of a PNG file. Throws
+/// WriteError.
+std::string png_bytes(int width, int height, std::span<const std::uint8_t> grey);
 
 }  // namespace mis

@@ -144,6 +144,8 @@ std::string scene_text(const SceneReport& scene, const Report& report)
            paragraphs(sentences_of(scene, report.threads, report.margin));
 }
 
+std::string ranking_text(const SceneReport& scene) { return table(scene); }
+
 std::string overall_text(const Report& report)
 {
     if (report.scenes.size() < 2) return "";

@@ -14,6 +14,9 @@ namespace mis {
 /// follows, with its state; the sentences say why.
 std::string scene_text(const SceneReport& scene, const Report& report);
 
+/// The table alone.
+std::string ranking_text(const SceneReport& scene);
+
 /// The ranking over all scenes; empty unless there are several.
 std::string overall_text(const Report& report);
 

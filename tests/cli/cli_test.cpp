@@ -8,7 +8,9 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 namespace mis {
@@ -325,6 +327,70 @@ TEST(CommandLine, RenderDoesNotTrustAnErrorThatFewSamplesCarry)
     const Outcome many = mis_with("render '" + file + "' --strategy uniform/light --spp 64" + out);
     EXPECT_NE(many.error.find("relative error of the estimate: "), std::string::npos);
     EXPECT_NE(many.error.find(" %"), std::string::npos) << many.error;
+}
+
+std::set<std::string> files_in(const std::filesystem::path& folder)
+{
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        files.insert(entry.path().filename().string());
+    return files;
+}
+
+const std::string small_run = " --resolution 24x16 --spp 8 --quiet --strategy brdf,uniform/power";
+
+TEST(CommandLine, CompareLeavesAReportFolder)
+{
+    const TemporaryFolder folder;
+    const std::string out = " --out '" + (folder / "report").string() + "'";
+    const std::string two = "compare " + scene("single") + " " + scene("veach") + small_run + out;
+    ASSERT_EQ(mis_with(two).exit, 0);
+    EXPECT_EQ(files_in(folder / "report"),
+              (std::set<std::string>{"maps-1.exr", "maps-2.exr", "report.html", "report.json",
+                                     "strategies.csv"}));
+    // Not over a report that stands, unless told so; then without what it left behind.
+    const Outcome refused = mis_with("compare " + scene("single") + small_run + out);
+    EXPECT_EQ(refused.exit, 2);
+    EXPECT_NE(refused.error.find("--force"), std::string::npos) << refused.error;
+    EXPECT_EQ(mis_with("compare " + scene("single") + small_run + out + " --force").exit, 0);
+    EXPECT_EQ(files_in(folder / "report"),
+              (std::set<std::string>{"maps.exr", "report.html", "report.json", "strategies.csv"}));
+}
+
+/// Files may grow to 100 kB: the figures fit, the page does not.
+TEST(CommandLine, LeavesNoHalfOfAReportWhereTheDiskIsFull)
+{
+    const TemporaryFolder folder;
+    const std::string out = (folder / "report").string(), error = (folder / "error").string();
+    const int status = std::system(("trap '' XFSZ; ulimit -f 200; '" + program_file().string() +
+                                    "' compare " + scene("single") + small_run + " --out '" + out +
+                                    "' >/dev/null 2>'" + error + "'")
+                                       .c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_NE(text_of(error).find("report.html: cannot be written"), std::string::npos)
+        << text_of(error);
+    EXPECT_EQ(files_in(out), (std::set<std::string>{"report.json", "strategies.csv"}));
+}
+
+/// What shows how far a run is goes to terminals alone, and is wiped before the result.
+TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
+{
+    const std::string run = "compare " + scene("single") + " --resolution 24x16 --spp 64";
+    const Outcome piped = mis_with(run);
+    EXPECT_EQ(piped.out.find('\x1b'), std::string::npos);
+    EXPECT_EQ(piped.error.find('\x1b'), std::string::npos);
+    const TemporaryFolder folder;
+    const std::string out = (folder / "out").string();
+    ASSERT_EQ(std::system(("script -qec \"'" + program_file().string() + "' " + run +
+                           "\" /dev/null >'" + out + "' </dev/null")
+                              .c_str()),
+              0);
+    const std::string shown = text_of(out);
+    const std::size_t wiped = shown.rfind("\x1b[J");
+    ASSERT_NE(wiped, std::string::npos);
+    EXPECT_LT(shown.find("[.."), wiped);  // the bar
+    EXPECT_EQ(shown.find("[..", wiped), std::string::npos);
+    EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
 }
 
 }  // namespace

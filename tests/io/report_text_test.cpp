@@ -62,6 +62,14 @@ TEST(ReportText, ShowsTheTableByRankWithTiesMarked)
     EXPECT_NE(text.find("±"), std::string::npos);
 }
 
+TEST(ReportText, HasTheRankingByItself)
+{
+    const SceneReport scene = sample_scene("plates");
+    const std::string ranking = ranking_text(scene), all = scene_text(scene, sample_report());
+    EXPECT_EQ(ranking.rfind("rank", 0), 0U) << ranking;
+    EXPECT_NE(all.find(ranking), std::string::npos) << all;
+}
+
 TEST(ReportText, BeginsWithTheSceneAndItsEffects)
 {
     const auto lines = lines_of(report_text(sample_report()));

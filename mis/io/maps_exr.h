@@ -1,0 +1,15 @@
+#pragma once
+
+#include "mis/compare/maps.h"
+#include "mis/compare/report.h"
+
+#include <string>
+
+namespace mis {
+
+/// Writes the maps of report.scenes[scene] as named layers (docs/report-format.md) to the file
+/// `path`, whole or not at all. Throws WriteError.
+void write_maps_exr(const Report& report, std::size_t scene, const Maps& maps,
+                    const std::string& path);
+
+}  // namespace mis
