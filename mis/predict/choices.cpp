@@ -85,7 +85,8 @@ PolicyView policy_at(std::string_view policy, const Scene& scene, const Probe& p
 
 bool LightTechniqueView::keeps_above(const Ball& ball, const Vec3<double>& n) const
 {
-    return is_above(ball, n) || !(pdf(ball.cap, n, -0.5 * ball.sin_max) > 0);
+    return is_above(ball, n) ||
+           (!is_below(ball, n) && !(pdf(ball.cap, n, -0.5 * ball.sin_max) > 0));
 }
 
 LightTechniqueView light_technique(std::string_view technique)
