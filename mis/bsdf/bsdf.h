@@ -16,6 +16,13 @@ template <class T> struct BsdfValue {
     T pdf;      ///< density of the BSDF's own draws at wi, per steradian
 };
 
+/// How f splits, in round figures: for those who must guess what it reflects of a cap.
+struct LobeExtent {
+    double diffuse = 0;           ///< luminance of f without its lobe, sr⁻¹
+    double specular = 0;          ///< of the order of the lobe's albedo over π, sr⁻¹
+    double half_solid_angle = 0;  ///< ∫ lobe/peak over half vectors, sr; 0 where there is no lobe
+};
+
 /// How a surface scatters. Directions are unit vectors in the shading frame (z is the normal), away
 /// from the point, with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a
 /// wi with wi.z ≤ 0 is a lost draw, which contributes 0 and is not redrawn, so ∫pdf over the
@@ -28,6 +35,7 @@ concept Bsdf = std::constructible_from<B, const Material&> &&
     { bsdf.evaluate(w, w) } -> std::same_as<BsdfValue<T>>;
     { bsdf.sample(w, lobe, u) } -> std::same_as<Vec3<T>>;
     { bsdf.draws() } -> std::same_as<bool>;
+    { bsdf.lobe() } -> std::same_as<LobeExtent>;
 };
 // clang-format on
 
@@ -100,6 +108,12 @@ struct HalfVectorBsdf {
                 select(is_specular, specular_wi.z, diffuse_wi.z)};
     }
     bool draws() const { return luminance(diffuse) > 0 || luminance(specular) > 0; }
+    LobeExtent lobe() const
+    {
+        const double strength = luminance(specular);
+        return {luminance(diffuse), strength * 8 / (m + 8),
+                strength > 0 ? 2 * pi<double> / (m + 1) : 0};
+    }
 };
 
 }  // namespace mis

@@ -47,6 +47,12 @@ public:
     }
 
     bool draws() const { return true; }  // at grazing angles F is 1, whatever f0
+    LobeExtent lobe() const
+    {
+        const double y = luminance(f0_);
+        return {luminance(diffuse_), (y > 0 ? y : 1.0 / 21) / pi<double>,
+                pi<double> * alpha_ * alpha_};
+    }
 
 private:
     /// Y(f0); where that is 0 the lobe still reflects, by Schlick's hemispherical mean (1 − f0)/21.

@@ -90,7 +90,8 @@ private:
         frame_ = frame_around(normalized(vec_cast<double>(at.point.n)));
         wo_ = frame_.to_local(vec_cast<double>(at.point.wo));
         tables_.clear();
-        for (auto& [name, policy] : policies_) tables_[name] = policy.at(point_.x, frame_.z);
+        for (auto& [name, policy] : policies_)
+            tables_[name] = policy.at(point_.x, frame_.z, wo_, scene_.bsdf(at.material));
     }
 
     /// A direction from the cone of a light that the policy chooses, or 0 where it can choose none.

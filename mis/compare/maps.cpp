@@ -197,7 +197,7 @@ private:
         if (column % stride != 0 || row % stride != 0) return;
         auto& most =
             map.lights[row / stride * static_cast<std::uint32_t>(map.width) + column / stride];
-        const ScalarPolicy::Table& table = policy.at(point.x, vec_cast<double>(point.n));
+        const ScalarPolicy::Table& table = policy.at(point.x, vec_cast<double>(point.n), {0, 0, 1}, {});
         for (std::size_t j = 0; j < scene_.scene().lights.size(); ++j) {
             LightShare light{static_cast<LightIndex>(j),
                              static_cast<float>(table.probability(static_cast<LightIndex>(j)))};

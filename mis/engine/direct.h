@@ -121,8 +121,7 @@ DirectDraw<T> draw_towards(const DirectPoint<Policy, T>& point, const HostBsdf<T
     const T probability = static_cast<T>(choice.probability);
     Vec3<T> radiance_over_pdf =
         vec_cast<T>(light.radiance_radius) / cap.distance * inverse_pdf_over_sin;
-    result.light_pdf = probability / max_of(cap.sin_max * inverse_pdf_over_sin,
-                                            std::numeric_limits<T>::denorm_min());
+    result.light_pdf = probability * Technique::pdf(cap, point.n(), cos_theta);
     // Without the rounding to T: a float direction is off by more than a small light is wide.
     const Vec3<double> to_center = light.center - point.x();
     const Vec3<double> exact_wi = normalized(normalized(to_center) + vec_cast<double>(draw.offset));

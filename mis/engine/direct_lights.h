@@ -102,7 +102,10 @@ public:
     /// To position x (scene units) with unit normal n. O(M) for policies that look at the point,
     /// O(log M) for the others (is x inside a light?). A position or normal that is not finite, and
     /// one inside a light, is not lit.
-    void move_to(const Vec3<double>& x, const Vec3<T>& n)
+    /// wo (unit, scene axes) and bsdf are for policies that look at them (`product`); without, such
+    /// a policy takes the surface for Lambertian.
+    void move_to(const Vec3<double>& x, const Vec3<T>& n, const Vec3<T>& wo = {0, 0, 1},
+                 const AnyBsdf& bsdf = {})
     {
         x_ = x, n_ = n;
         const bool is_finite = std::isfinite(x.x + x.y + x.z) && std::isfinite(n.x + n.y + n.z);
@@ -112,7 +115,8 @@ public:
         scratch_.clear();
         if (is_lit_)
             table_.emplace(lights_->policy().template prepare<T>(
-                {vec_cast<T>(x - lights_->origin()), n}, lights_->columns(), scratch_));
+                {vec_cast<T>(x - lights_->origin()), n, frame_around(n).to_local(wo), bsdf},
+                lights_->columns(), scratch_));
     }
 
     const DirectLights<Policy, T>& lights() const { return *lights_; }

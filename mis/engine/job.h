@@ -25,6 +25,7 @@ template <class T> struct TileJob {
     LightColumns<T> columns;       ///< for policies that look at the point, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
+    int bsdf_type = -1;  ///< its number in the registry
     NumberSource numbers;
     T light_count = 1,
       bsdf_count = 1;  ///< n_i of the multi-sample model; c_i of the one-sample model

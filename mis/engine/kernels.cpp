@@ -51,7 +51,10 @@ void prepare_tables(const TileJob<T>& job, Batch<T>& batch, std::size_t first, S
     const Policy& policy = *static_cast<const Policy*>(job.policy);
     for (std::size_t p = first; p < batch.points; ++p) {
         const ShadingPoint& point = job.points[batch.tile_point[p]];
-        const ChoicePoint<T> seen{vec_cast<T>(point.x - job.origin), vec_cast<T>(point.n)};
+        const Vec3<T> n = vec_cast<T>(point.n);
+        const ChoicePoint<T> seen{vec_cast<T>(point.x - job.origin), n,
+                                  frame_around(n).to_local(vec_cast<T>(point.wo)),
+                                  AnyBsdf{job.bsdf, job.bsdf_type}};
         ::new (&batch.tables[p])
             TableOf<Policy, V, T>(policy.template prepare<V>(seen, job.columns, scratch));
     }

@@ -50,7 +50,8 @@ TileJob<T> ReadyStrategy<T>::job(const Tile& tile, std::span<const ShadingPoint>
     TileJob<T> job = common_;
     job.points = points;
     job.origin = tile.origin;
-    job.bsdf = scene_->bsdf(tile.material);
+    const AnyBsdf bsdf = scene_->bsdf(tile.material);
+    job.bsdf = bsdf.object, job.bsdf_type = bsdf.type;
     return job;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/bsdf/any_bsdf.h"
 #include "mis/effects/effects.h"
 #include "mis/engine/gbuffer.h"
 #include "mis/engine/tile.h"
@@ -24,9 +25,10 @@ public:
     const Effects& effects() const { return effects_; }
     const LightHierarchy& lights() const { return hierarchy_; }
     const SurfaceTracer* surfaces() const { return surfaces_; }
-    const void* bsdf(int material) const
+    AnyBsdf bsdf(int material) const
     {
-        return bsdfs_[static_cast<std::size_t>(material)].get();
+        const auto i = static_cast<std::size_t>(material);
+        return {bsdfs_[i].get(), bsdf_number(scene_->materials[i].type)};
     }
 
 private:

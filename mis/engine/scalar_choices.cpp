@@ -96,12 +96,13 @@ ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights)
     if (!prepare_) raise<std::out_of_range>("no policy is called " + std::string(name));
 }
 
-const ScalarPolicy::Table& ScalarPolicy::at(const Vec3<double>& x, const Vec3<double>& n)
+const ScalarPolicy::Table& ScalarPolicy::at(const Vec3<double>& x, const Vec3<double>& n,
+                                            const Vec3<double>& wo, const AnyBsdf& bsdf)
 {
     scratch_.clear();
     const LightColumns<double> columns =
         looks_at_point_ ? fill_light_columns(*lights_, x, columns_) : LightColumns<double>{};
-    table_ = prepare_({Vec3<double>(0), n}, columns, scratch_);
+    table_ = prepare_({Vec3<double>(0), n, wo, bsdf}, columns, scratch_);
     return table_;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/bsdf/any_bsdf.h"
 #include "mis/bsdf/bsdf.h"
 #include "mis/policy/light_choice.h"
 #include "mis/scene/scene.h"
@@ -40,7 +41,7 @@ struct ScalarTechnique {
 /// Throws std::out_of_range for an unknown name.
 ScalarTechnique scalar_technique(std::string_view name);
 
-/// A policy; at(x, n) prepares a point. What it returns is good until the next call.
+/// A policy; at() prepares a point. What it returns is good until the next call.
 class ScalarPolicy {
 public:
     struct Table {
@@ -49,7 +50,9 @@ public:
     };
     /// Throws std::out_of_range for an unknown name. Keeps a reference to the lights.
     ScalarPolicy(std::string_view name, const Lights& lights);
-    const Table& at(const Vec3<double>& x, const Vec3<double>& n);
+    /// wo: in the shading frame about n.
+    const Table& at(const Vec3<double>& x, const Vec3<double>& n, const Vec3<double>& wo,
+                    const AnyBsdf& bsdf);
     bool draws_every_light() const { return draws_every_light_; }
 
 private:

@@ -74,15 +74,18 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Cap<V> cap = cap_of_row<V>(batch, row);
         const Vec2<V> u{lanes_of<V>(batch.u, row), lanes_of<V>(batch.v, row)};
-        const CapDraw<V> draw = Technique::draw(cap, batch.n.template get<V>(row), u);
+        const Vec3<V> n = batch.n.template get<V>(row);
+        const CapDraw<V> draw = Technique::draw(cap, n, u);
         batch.wi.set(row, draw.wi);
         batch.offset.set(row, draw.offset);
         set_lanes(batch.distance, row, draw.distance);
-        const V inverse_pdf_sin = cap.sin_max * draw.inverse_pdf_sin2;
+        // As pdf_of_light does it for the other half, to the last bit: or both halves of `maximum`
+        // could think the other's density the larger.
+        const V pdf = Technique::pdf(cap, n, V(dot(n, draw.wi)));
+        set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
         // 1/pdf = sin² · inverse_pdf_sin2, taken one sine at a time: the square of a tiny radius is
         // no normal number.
-        const V pdf = number<V>(1) / max_of(cap.sin_max * inverse_pdf_sin, number<V>(1e-45));
-        set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
+        const V inverse_pdf_sin = cap.sin_max * draw.inverse_pdf_sin2;
         batch.radiance.set(
             row, Vec3<V>(batch.radiance.template get<V>(row) / cap.distance * inverse_pdf_sin));
     });

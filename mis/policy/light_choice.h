@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/bsdf/any_bsdf.h"
 #include "mis/math/irradiance.h"
 #include "mis/sampling/discrete.h"
 #include "mis/scene/light.h"
@@ -23,9 +24,12 @@ template <class T> struct LightColumns {
     T inverse_largest_radius = 1;
 };
 
-/// A shading point as policies see it: position relative to the origin of the columns, and normal.
+/// A shading point as policies see it.
 template <class T> struct ChoicePoint {
-    Vec3<T> x, n;
+    Vec3<T> x;            ///< relative to the origin of the columns
+    Vec3<T> n;            ///< unit normal
+    Vec3<T> wo{0, 0, 1};  ///< unit, to the viewer, in the shading frame about n
+    AnyBsdf bsdf{};       ///< of the surface; a policy that is not told takes it for Lambertian
 };
 
 /// Room for the tables of some points; handed out from the front, and all taken back at once.
@@ -120,8 +124,8 @@ template <class T> struct SeenLight {
 /// The table of a policy whose weight is a formula per light. weight(seen, n) ≥ 0 and finite; its
 /// unit is free.
 template <class T, class Weight>
-RunningSum prepare_by_weight(const Weight& weight, const ChoicePoint<Scalar<T>>& point,
-                             const LightColumns<Scalar<T>>& lights, Scratch& scratch)
+MIS_INLINE RunningSum prepare_by_weight(const Weight& weight, const ChoicePoint<Scalar<T>>& point,
+                                        const LightColumns<Scalar<T>>& lights, Scratch& scratch)
 {
     const std::span<double> sums = scratch.take<double>(lights.count);
     const std::span<Scalar<T>> weights = scratch.take<Scalar<T>>(lights.x.size());

@@ -1,5 +1,7 @@
 #include "mis/predict/choices.h"
 
+#include "mis/bsdf/any_bsdf.h"
+#include "mis/math/frame.h"
 #include "mis/policy/registry.h"
 #include "mis/technique/registry.h"
 
@@ -61,6 +63,10 @@ template <class P> PolicyView view_of(const Scene& scene, const Probe& probe)
     Scratch scratch(P::table_bytes(count) + 64);
     ChoicePoint<double> point{};
     point.x = Vec3<double>(0), point.n = probe.normal;
+    point.wo = frame_around(probe.normal).to_local(probe.outgoing);
+    const Material& material = scene.materials[static_cast<std::size_t>(probe.material)];
+    const std::shared_ptr<const void> bsdf = make_bsdf(material);
+    point.bsdf = {bsdf.get(), bsdf_number(material.type)};
     const auto table = policy.template prepare<double>(point, columns.view(), scratch);
     for (std::size_t j = 0; j < count; ++j)
         view.probability[j] = table.probability(static_cast<LightIndex>(j));
@@ -85,7 +91,8 @@ PolicyView policy_at(std::string_view policy, const Scene& scene, const Probe& p
 
 bool LightTechniqueView::keeps_above(const Ball& ball, const Vec3<double>& n) const
 {
-    return is_above(ball, n) || !(pdf(ball.cap, n, -0.5 * ball.sin_max) > 0);
+    return is_above(ball, n) ||
+           (!is_below(ball, n) && !(pdf(ball.cap, n, -0.5 * ball.sin_max) > 0));
 }
 
 LightTechniqueView light_technique(std::string_view technique)

@@ -122,11 +122,16 @@ private:
             1 / (draw.draws * static_cast<double>(std::clamp<std::size_t>(patches_.size(), 1, 16)));
         const double t2 = std::max(share * tolerance_ * f.variance.value,
                                    floor * (s2 + 2 * c * std::sqrt(std::abs(s2)) + floor * c * c));
+        // What rounding of X does to X − c, and so to its powers: no node rule gets below that.
+        const double noise = 16 * rounding_ * c, spread = std::sqrt(std::abs(s2));
         const double t1 =
             std::max(std::min(share * tolerance_ * std::abs(f.mean.value), t2 / (2 * a1)),
-                     floor * (std::abs(s1) + c * rounding_));
-        const double t4 = std::max(share * 10 * tolerance_ * f.fourth.value, floor * s4);
-        const double t3 = std::max(t4 / (4 * a1), floor * std::abs(s3));
+                     floor * std::abs(s1) + noise);
+        const double t4 =
+            std::max(share * 10 * tolerance_ * f.fourth.value,
+                     floor * s4 + noise * std::pow(std::sqrt(std::abs(s4)) + noise * noise, 1.5));
+        const double t3 = std::max(
+            t4 / (4 * a1), floor * std::abs(s3) + noise * (spread + noise) * (spread + noise));
         return {t1, t2, t3, t4};
     }
 

@@ -2,6 +2,8 @@
 
 #include "mis/math/cap.h"
 
+#include <limits>
+
 namespace mis {
 
 /// A direction drawn in a cap. The offset from the axis is kept beside the rounded direction: a
@@ -44,7 +46,8 @@ template <class T> MIS_INLINE CapDraw<T> sample_cone(const Cap<T>& cap, const Ve
 /// Density of sample_cone, per steradian; infinite for caps below 1e-19 rad in float.
 template <class T> MIS_INLINE T cone_pdf(const Cap<T>& cap)
 {
-    return number<T>(1) / cap.solid_angle();
+    const T least(std::numeric_limits<Scalar<T>>::denorm_min());
+    return number<T>(1) / max_of(cap.solid_angle(), least);
 }
 
 }  // namespace mis

@@ -14,6 +14,9 @@ struct Case {
     std::string why;   ///< one sentence
     Scene scene;
     bool is_dark = false;  ///< the probe sees no light: every sample is exactly 0
+    /// Both techniques of `maximum/projected` have the same density everywhere: which of two equal
+    /// numbers is the larger is rounding's say.
+    bool cosine_ties = false;
 };
 
 /// For googletest's messages.

@@ -65,7 +65,8 @@ std::string disagreement(const Moments& measured, const Predicted& predicted,
         return outside("mean", measured.mean, mean - 2 * rounding, mean + 2 * rounding) +
                outside("deviation", std::sqrt(measured.variance()), 0,
                        2 * strictness.rounding * mean);
-    const double kurtosis = predicted.fourth / square(variance);
+    // No kurtosis is below 1, which two values drawn equally often have; rounding may say less.
+    const double kurtosis = std::max(predicted.fourth / square(variance), 1.0);
     const Room room = room_of_mean(n, kurtosis, variance / square(mean), p);
     const double error_of_mean = std::sqrt(variance / n);
     std::string found = outside("mean", measured.mean, mean - room.below * error_of_mean - rounding,

@@ -1,6 +1,7 @@
 // One sphere of fixed power over a floor: Φ·cosθ/(4π d²) · albedo/π whatever its radius, by
 // Gauss–Legendre nodes put through the pipeline in place of random numbers.
 #include "tests/engine/bench.h"
+#include "tests/support/irradiance.h"
 
 #include <gtest/gtest.h>
 
@@ -83,6 +84,48 @@ template <class T> void expect_closed_form(double tolerance)
 
 TEST(OneSphere, OfAnyRadiusGivesTheClosedFormInDouble) { expect_closed_form<double>(2e-7); }
 TEST(OneSphere, OfAnyRadiusGivesTheClosedFormInFloat) { expect_closed_form<float>(1e-6); }
+
+/// The least and the largest sample of the one light of power 7 at `at`, drawn in proportion to the
+/// cosine, over what the closed form says.
+template <class T>
+void expect_every_sample_exact(const Vec3<double>& at, double radius, std::string_view strategy,
+                               double tolerance)
+{
+    const double d = length(at), s = radius / d;
+    const double exact = power * exact_irradiance_over_sin2(s, at.y / d) / std::numbers::pi /
+                         (4 * std::numbers::pi * d * d) * 0.5 / std::numbers::pi;
+    const TestScene test(
+        probe_under({make_light_of_power(at, radius, Vec3<double>(power))}, grey_floor()));
+    for (const std::string_view set : instruction_sets()) {
+        const Outcome outcome =
+            run_probe<T>(test, parse_strategy(strategy), kernels_of<T>(set), batch_capacity);
+        EXPECT_EQ(outcome.totals.invalid, 0U);
+        const Moments& found = outcome.result.luminance;
+        EXPECT_NEAR(found.mean / exact, 1, tolerance) << set << ", radius " << radius;
+        EXPECT_LT(std::sqrt(found.m2), tolerance * exact) << set << ", radius " << radius;
+    }
+}
+
+template <class T> void expect_no_variance_under_one_sphere(double tolerance)
+{
+    for (const std::string_view strategy : {"uniform/light/projected", "all/light/projected"})
+        for (const double radius : {1e-20, 1e-6, 1e-3, 0.1, 1.0, 1.9999}) {
+            expect_every_sample_exact<T>(center, radius, strategy, tolerance);
+            // The horizon cuts these: half, most, hardly any of it is above.
+            if (radius < 1e-4) continue;
+            for (const double height : {0.3, 0.0, -0.6})
+                expect_every_sample_exact<T>({1, height * radius, 2}, radius, strategy, tolerance);
+        }
+}
+
+TEST(OneSphere, DrawnInProportionToTheCosineGivesNoVarianceInDouble)
+{
+    expect_no_variance_under_one_sphere<double>(2e-6);
+}
+TEST(OneSphere, DrawnInProportionToTheCosineGivesNoVarianceInFloat)
+{
+    expect_no_variance_under_one_sphere<float>(1e-5);
+}
 
 }  // namespace
 }  // namespace mis

@@ -110,7 +110,7 @@ template <class B> void expect_the_pipelines_samples_of(const Material& material
     for_each_type(Policies{}, [&]<class Policy>() {
         const DirectLights<Policy, double> lights(scene.lights);
         DirectPoint<Policy, double> point(lights);
-        point.move_to(host.point.x, n);
+        point.move_to(host.point.x, n, wo, any_bsdf(own));
         ASSERT_TRUE(point.is_lit());
         for_each_type(Heuristics{}, [&]<class Heuristic>() {
             for_each_type(Techniques{}, [&]<class Technique>() {

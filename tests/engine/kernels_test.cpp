@@ -1,10 +1,13 @@
 // Every instruction set and number type: the same samples, but for rounding.
 #include "mis/engine/kernels.h"
 
+#include "mis/bsdf/any_bsdf.h"
 #include "mis/engine/light_columns.h"
+#include "mis/policy/product.h"
 #include "mis/sampling/random.h"
 
 #include "tests/engine/bench.h"
+#include "tests/policy/prepared.h"
 #include "tests/support/irradiance.h"
 #include "tests/support/statistics.h"
 
@@ -150,6 +153,43 @@ TEST(InstructionSets, WeighLightsCutByTheHorizonByTheirIrradiance)
         SCOPED_TRACE(set);
         expect_irradiances(kernels_of<float>(set));
         expect_irradiances(kernels_of<double>(set));
+    }
+}
+
+/// The view and the BSDF reach a policy that looks at them: a floor seen aslant, lobes of all
+/// kinds.
+template <class T> void expect_products(const Kernels<T>& kernels, const Material& material)
+{
+    Scene scene = probe_under(thirty_lights_one_dark(), material);
+    scene.probes.at(0).outgoing =
+        normalized(scene.probes.at(0).normal + Vec3<double>{0.9, 0.2, -0.4});
+    const TestScene test(scene);
+    const std::vector<T> found = probabilities_of<T>("product", test, kernels);
+    const ShadingPoint& point = test.probes.points.at(0);
+    const std::shared_ptr<const void> bsdf = make_bsdf(material);
+    const Vec3<double> n = vec_cast<double>(point.n);
+    const Prepared<ProductPolicy> known(test.scene.lights, point.x, n, point.x,
+                                        vec_cast<double>(point.wo),
+                                        {bsdf.get(), bsdf_number(material.type)});
+    for (std::size_t j = 0; j < found.size(); ++j)
+        EXPECT_NEAR(static_cast<double>(found[j]), known.probability(j),
+                    (std::is_same_v<T, float> ? 1e-4 : 1e-6) * known.probability(j) + 1e-12)
+            << material.type << " " << j;
+}
+
+TEST(InstructionSets, WeighLightsByWhatTheSurfaceReflectsOfThem)
+{
+    for (const char* type : {"lambert", "lecture", "blinn", "ggx"}) {
+        const Material material{.type = type,
+                                .diffuse = Vec3<double>(0.05),
+                                .specular = Vec3<double>(0.5),
+                                .exponent = 60,
+                                .alpha = 0.2};
+        for (const std::string_view set : instruction_sets()) {
+            SCOPED_TRACE(set);
+            expect_products(kernels_of<float>(set), material);
+            expect_products(kernels_of<double>(set), material);
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/engine/light_columns.h"
+#include "mis/math/frame.h"
 #include "mis/math/lanes.h"
 #include "mis/policy/light_choice.h"
 
@@ -17,13 +18,15 @@ public:
         : Prepared(lights, x, n, x)
     {
     }
-    /// origin: of the lights' columns.
+    /// origin: of the lights' columns. wo in scene axes.
     Prepared(const Lights& lights, const Vec3<double>& x, const Vec3<double>& n,
-             const Vec3<double>& origin)
+             const Vec3<double>& origin, const Vec3<double>& wo = {0, 0, 1},
+             const AnyBsdf& bsdf = {})
         : policy_(lights), columns_(fill_light_columns(lights, origin, storage_)),
           scratch_(P::table_bytes(lights.size()) + 64),
-          table_(policy_.template prepare<T>({vec_cast<S>(x - origin), vec_cast<S>(n)}, columns_,
-                                             scratch_)),
+          table_(policy_.template prepare<T>({vec_cast<S>(x - origin), vec_cast<S>(n),
+                                              vec_cast<S>(frame_around(n).to_local(wo)), bsdf},
+                                             columns_, scratch_)),
           count_(lights.size())
     {
     }

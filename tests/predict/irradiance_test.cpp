@@ -54,5 +54,31 @@ TEST(PredictIrradiance, LeavesNoVarianceOfSmallLights)
     EXPECT_GT(relative_variance(scene, "radiant-solid-angle/light"), 0.01);
 }
 
+/// Drawn in proportion to the cosine as well, lights of any size leave none; nor do those that the
+/// horizon cuts. Twins: drawn over the whole cap they do, and so they do where one hides another.
+TEST(PredictIrradiance, LeavesNoVarianceOfProjectedCaps)
+{
+    const std::vector<Strategy> exact = strategies_of(
+        {"irradiance/light/projected", "all/light/projected", "irradiance/light/projected@3+0"});
+    Scene scene = lamps_over_a_floor(0.05);
+    const auto check = [&] {
+        for (const Predicted& p : predict(scene, scene.probes[0], exact)) {
+            EXPECT_LT(p.variance, 1e-24 * p.mean * p.mean);
+            EXPECT_LT(p.variance_error, 1e-15 * p.mean * p.mean);
+        }
+        EXPECT_GT(relative_variance(scene, "irradiance/light"), 1e-7);
+    };
+    check();
+    scene.lights.resize(3);
+    scene.lights.push_back(make_light({0, 3, 0.1}, 0.5, Vec3<double>(5)));
+    scene.lights.push_back(make_light({0, -3, -0.2}, 0.5, Vec3<double>(5)));
+    scene.lights.push_back(make_light({0, -3, -2}, 0.5, Vec3<double>(5)));  // wholly below
+    check();
+    // Drawn as often as the others, a light below the horizon is worth 0 each time.
+    EXPECT_GT(relative_variance(scene, "uniform/light/projected"), 0.1);
+    scene.lights.push_back(make_light({0, 2.4, 0.2}, 0.1, Vec3<double>(5)));
+    EXPECT_GT(relative_variance(scene, "irradiance/light/projected"), 1e-3);
+}
+
 }  // namespace
 }  // namespace mis

@@ -44,11 +44,10 @@ public:
             if (s_.policy == "power") weight = y * light.radius * light.radius;
             if (s_.policy == "solid-angle") weight = solid;
             if (s_.policy == "radiant-solid-angle") weight = y * solid;
-            if (s_.policy == "irradiance") {
-                const double s = light.radius / d;
-                const double c = dot(probe.normal, light.center - probe.position) / d;
-                weight = y * s * s * exact_irradiance_over_sin2(s, c);
-            }
+            const double s = light.radius / d;
+            const double c = dot(probe.normal, light.center - probe.position) / d;
+            irradiance_.push_back(s * s * exact_irradiance_over_sin2(s, c));
+            if (s_.policy == "irradiance") weight = y * irradiance_.back();
             probability_.push_back(weight);
             sum += weight;
         }
@@ -115,6 +114,9 @@ private:
     }
     double light_density(const Vec& w, int nearest_light) const
     {
+        if (s_.technique == "projected")
+            return probability_[index(nearest_light)] * dot(probe_.normal, w) /
+                   irradiance_[index(nearest_light)];
         if (s_.technique != "union")
             return probability_[index(nearest_light)] / solid_angle_[index(nearest_light)];
         double sum = 0;
@@ -132,15 +134,22 @@ private:
     }
     double light_draw(int j)
     {
+        if (s_.technique == "projected" && irradiance_[index(j)] == 0) return 0;
+        Vec w = in_cap(j);
+        // In proportion to the cosine: by rejection, for all the cosines are below 1.
+        while (s_.technique == "projected" && uniform() >= dot(probe_.normal, w)) w = in_cap(j);
+        const Hit hit = nearest(w);
+        if (hit.light < 0 || (s_.technique != "union" && hit.light != j)) return 0;
+        return weighed(w, hit.light, true);
+    }
+    Vec in_cap(int j)
+    {
         const Light& light = scene_.lights[index(j)];
         const Vec axis = glm::normalize(light.center - probe_.position);
         const double z = 1 - uniform() * solid_angle_[index(j)] / (2 * std::numbers::pi),
                      phi = 2 * std::numbers::pi * uniform();
         const double rho = std::sqrt(std::max(0.0, 1 - z * z));
-        const Vec w = frame_around(axis).to_world(Vec(rho * std::cos(phi), rho * std::sin(phi), z));
-        const Hit hit = nearest(w);
-        if (hit.light < 0 || (s_.technique != "union" && hit.light != j)) return 0;
-        return weighed(w, hit.light, true);
+        return frame_around(axis).to_world(Vec(rho * std::cos(phi), rho * std::sin(phi), z));
     }
     double bsdf_draw()
     {
@@ -203,7 +212,7 @@ private:
     Strategy s_;
     Frame<double> frame_;
     Vec wo_;
-    std::vector<double> solid_angle_, probability_;
+    std::vector<double> solid_angle_, irradiance_, probability_;
     std::function<BsdfValue<double>(const Vec&, const Vec&)> f_;
     std::function<Vec(const Vec&, double, Vec2<double>)> draw_;
     std::mt19937_64 random_{7};

@@ -46,6 +46,9 @@ inline Predicted predict_one(const Scene& scene, std::string_view strategy)
     return predict(scene, scene.probes.front(), std::span(&s, 1)).front();
 }
 
+/// All samples are worth the same, but for rounding: variances have no digits then.
+inline bool is_exact(const Predicted& p) { return p.variance < 1e-24 * p.mean * p.mean; }
+
 /// The unit vector at angle θ from +z, azimuth φ.
 inline Vec3<double> direction(double theta, double phi = 0)
 {

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "mis/policy/light_choice.h"
+
+namespace mis {
+
+namespace detail {
+
+/// Of a light that rounding may have put below the horizon: E/sin²θ_max of one that is as far
+/// above tangency as angles are uncertain, for it may be visible. coordinates: the largest over
+/// the distance. docs/theory.md, eq. 52.
+template <class T> MIS_INLINE T least_over_sin2(const TiltedCap<T>& cap, const T& coordinates)
+{
+    using std::sqrt;
+    const T blur = number<T>(8) * T(std::numeric_limits<Scalar<T>>::epsilon()) * coordinates;
+    const T share = blur / max_of(cap.sin_max, blur);
+    const T least = blur * share * sqrt(share);
+    return select(cap.sin_max + cap.cos_beta > -blur, least, number<T>(0));
+}
+
+}  // namespace detail
+
+/// E/sin²θ_max of a light as a policy weighs it: positive for all that may be above the horizon.
+/// from_origin: of the point, from the origin of the lights' columns.
+template <class T>
+MIS_INLINE T seen_irradiance_over_sin2(const SeenLight<T>& light, const TiltedCap<T>& cap,
+                                       const T& from_origin)
+{
+    const T d = max_of(light.distance, light.radius);
+    return max_of(irradiance_over_sin2(cap),
+                  detail::least_over_sin2<T>(cap, number<T>(1) + from_origin / d));
+}
+
+/// Y(L)·E of a light, but for a common factor: (Y(L)·r/d) · sin θ_max · E/sin²θ_max.
+template <class T>
+MIS_INLINE T radiant_irradiance(const SeenLight<T>& light, const TiltedCap<T>& cap,
+                                const T& irradiance)
+{
+    return light.luminance_radius / max_of(light.distance, light.radius) *
+           (cap.sin_max * irradiance);
+}
+
+}  // namespace mis
