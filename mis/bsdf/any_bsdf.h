@@ -21,9 +21,10 @@ struct AnyBsdf {
     template <class F> MIS_INLINE void visit(F&& f) const
     {
         int number = 0;
-        for_each_type(Bsdfs{}, [&]<class B>() {
-            if (number++ == type) f(*static_cast<const B*>(object));
-        });
+        for_each_type(
+            Bsdfs{}, [&]<class B>() __attribute__((always_inline)) {
+                if (number++ == type) f(*static_cast<const B*>(object));
+            });
     }
 };
 

@@ -108,7 +108,7 @@ struct HalfVectorBsdf {
                 select(is_specular, specular_wi.z, diffuse_wi.z)};
     }
     bool draws() const { return luminance(diffuse) > 0 || luminance(specular) > 0; }
-    LobeExtent lobe() const
+    MIS_INLINE LobeExtent lobe() const
     {
         const double strength = luminance(specular);
         return {luminance(diffuse), strength * 8 / (m + 8),

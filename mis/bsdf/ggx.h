@@ -47,7 +47,7 @@ public:
     }
 
     bool draws() const { return true; }  // at grazing angles F is 1, whatever f0
-    LobeExtent lobe() const
+    MIS_INLINE LobeExtent lobe() const
     {
         const double y = luminance(f0_);
         return {luminance(diffuse_), (y > 0 ? y : 1.0 / 21) / pi<double>,

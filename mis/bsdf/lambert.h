@@ -19,7 +19,7 @@ public:
         return sample_cosine(u);
     }
     bool draws() const { return luminance(f_) > 0; }
-    LobeExtent lobe() const { return {luminance(f_), 0, 0}; }
+    MIS_INLINE LobeExtent lobe() const { return {luminance(f_), 0, 0}; }
 
 private:
     Vec3<double> f_;  ///< sr⁻¹

@@ -78,7 +78,7 @@ private:
         StrategyMap map{static_cast<int>(s), background(), std::vector<float>(pixels_), {}};
         for (std::size_t p = 0; p < lit(); ++p) {
             map.mean[pixel_of(p)] = vec_cast<float>(run.results()[p].mean());
-            map.variance[pixel_of(p)] = static_cast<float>(run.results()[p].luminance.variance());
+            map.variance[pixel_of(p)] = static_cast<float>(run.variance_at(p));
         }
         for (std::size_t t = 0; t < study_.points->figure_tiles; ++t)
             if (run.invalid_at(t) > 0)
@@ -197,7 +197,8 @@ private:
         if (column % stride != 0 || row % stride != 0) return;
         auto& most =
             map.lights[row / stride * static_cast<std::uint32_t>(map.width) + column / stride];
-        const ScalarPolicy::Table& table = policy.at(point.x, vec_cast<double>(point.n), {0, 0, 1}, {});
+        const ScalarPolicy::Table& table =
+            policy.at(point.x, vec_cast<double>(point.n), {0, 0, 1}, {});
         for (std::size_t j = 0; j < scene_.scene().lights.size(); ++j) {
             LightShare light{static_cast<LightIndex>(j),
                              static_cast<float>(table.probability(static_cast<LightIndex>(j)))};

@@ -47,6 +47,11 @@ public:
     const Strategy& strategy() const { return ready_.strategy(); }
     std::uint64_t samples() const { return samples_; }  ///< over all shading points
     std::span<const PointResult> results() const { return results_; }
+    /// Of one sample at a shading point (docs/theory.md (70)); NaN for fewer than two observations.
+    double variance_at(std::size_t point) const
+    {
+        return samples_per_observation_ * results_[point].luminance.variance();
+    }
 
     /// The first sample, tile by tile, that is no number; nothing where all are.
     std::optional<SampleName> first_invalid() const;

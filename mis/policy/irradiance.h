@@ -23,8 +23,19 @@ public:
     RunningSum prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>& lights,
                        Scratch& scratch) const
     {
+        return prepare_irradiance<T>(point, lights, scratch);
+    }
+
+    /// The same for a policy of which this is a part.
+    template <class T>
+    MIS_INLINE static RunningSum prepare_irradiance(const ChoicePoint<Scalar<T>>& point,
+                                                    const LightColumns<Scalar<T>>& lights,
+                                                    Scratch& scratch)
+    {
         const T from_origin(length(point.x));
-        const auto weight = [&](const SeenLight<T>& light, const Vec3<T>& n) {
+        const auto weight = [&](const SeenLight<T>& light, const Vec3<T>& n)
+            __attribute__((always_inline))
+        {
             const TiltedCap<T> cap = light.tilted_cap(n);
             return radiant_irradiance(light, cap,
                                       seen_irradiance_over_sin2(light, cap, from_origin));

@@ -45,7 +45,7 @@ public:
 
     /// Room for n numbers of type N, on a boundary of 64 bytes. Precondition: bytes_for<N>(n) ≤
     /// left().
-    template <class N> std::span<N> take(std::size_t n)
+    template <class N> MIS_INLINE std::span<N> take(std::size_t n)
     {
         std::byte* start = storage_.get() + used_;
         const auto misaligned = reinterpret_cast<std::uintptr_t>(start) % 64;

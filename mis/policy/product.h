@@ -2,7 +2,7 @@
 
 #include "mis/bsdf/any_bsdf.h"
 #include "mis/math/frame.h"
-#include "mis/policy/seen_irradiance.h"
+#include "mis/policy/irradiance.h"
 
 namespace mis {
 
@@ -28,12 +28,12 @@ public:
                        Scratch& scratch) const
     {
         RunningSum table;
-        bool is_known = false;
-        point.bsdf.visit([&](const auto& bsdf) {
-            table = prepare_on<T>(bsdf, point, lights, scratch);
-            is_known = true;
+        bool is_glossy = false;
+        point.bsdf.visit([&](const auto& bsdf) __attribute__((always_inline)) {
+            is_glossy = bsdf.lobe().half_solid_angle > 0;
+            if (is_glossy) table = prepare_glossy<T>(bsdf, point, lights, scratch);
         });
-        return is_known ? table : prepare_on<T>(Lambert({}), point, lights, scratch);
+        return is_glossy ? table : IrradiancePolicy::prepare_irradiance<T>(point, lights, scratch);
     }
 
 private:
@@ -42,21 +42,13 @@ private:
     static constexpr double defensive = 0.02;
 
     template <class T, class B>
-    MIS_INLINE static RunningSum prepare_on(const B& bsdf, const ChoicePoint<Scalar<T>>& point,
-                                            const LightColumns<Scalar<T>>& lights, Scratch& scratch)
+    MIS_INLINE static RunningSum prepare_glossy(const B& bsdf, const ChoicePoint<Scalar<T>>& point,
+                                                const LightColumns<Scalar<T>>& lights,
+                                                Scratch& scratch)
     {
         const LobeExtent lobe = bsdf.lobe();
         const double broad = lobe.diffuse + defensive * lobe.specular;
         const T from_origin(length(point.x));
-        if (!(lobe.half_solid_angle > 0)) {
-            return prepare_by_weight<T>(
-                [&](const SeenLight<T>& light, const Vec3<T>& n) __attribute__((always_inline)) {
-                    const TiltedCap<T> cap = light.tilted_cap(n);
-                    return radiant_irradiance(light, cap,
-                                              seen_irradiance_over_sin2(light, cap, from_origin));
-                },
-                point, lights, scratch);
-        }
         const Vec3<T> wo{T(point.wo.x), T(point.wo.y), T(point.wo.z)};
         const T extent = number<T>(4 * lobe.half_solid_angle) * wo.z;  // of the lobe, about wi
         const T diffuse = number<T>(lobe.diffuse), flat = number<T>(broad);

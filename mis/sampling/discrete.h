@@ -66,7 +66,8 @@ private:
 class RunningSum {
 public:
     /// weights: not negative, finite; kept by reference, as `sums` is, of the same length.
-    template <class T> static RunningSum over(std::span<const T> weights, std::span<double> sums)
+    template <class T>
+    MIS_INLINE static RunningSum over(std::span<const T> weights, std::span<double> sums)
     {
         double sum = 0;
         for (std::size_t i = 0; i < weights.size(); ++i)
