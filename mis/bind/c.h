@@ -74,7 +74,8 @@ mis_status mis_point_create(const mis_lights* lights, mis_point** out);
 void mis_point_destroy(mis_point* point);
 
 /* Not lit: a point inside a light, and one whose position or normal is not finite. Returns whether
- * it is lit. */
+ * it is lit. The policy `product` takes the surface for Lambertian here: it knows mis's own BSDFs
+ * alone. */
 int mis_point_move_to(mis_point* point, const double x[3], const float n[3]);
 /* A light drawn by 64 random bits, and its probability; -1 and 0 where none can contribute. */
 int32_t mis_point_choose(const mis_point* point, uint64_t bits, double* probability);
