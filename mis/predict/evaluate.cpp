@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mis {
 
@@ -217,7 +218,7 @@ double Evaluator::ratio(const Vec3<double>& around, double theta, const Stretch&
         light += plan_->policies[policy].probability[static_cast<std::size_t>(j)] *
                  plan_->techniques[technique].pdf(sky_->ball(j).cap, sky_->n, r.cos_theta);
     }
-    return r.pdf / light;
+    return light > 0 ? r.pdf / light : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace mis
