@@ -37,7 +37,7 @@ struct Moments {
     double effective_count() const { return m4 > 0 ? m2 / m4 * m2 : 0; }
 
     /// Standard error of the mean; NaN for fewer than two numbers.
-    double mean_se() const { return std::sqrt(variance() / number()); }
+    double mean_se() const { return count < 2 ? nan() : std::sqrt(variance() / number()); }
 
     /// Standard error of variance(): Var(s²) = (μ4 − σ⁴(n−3)/(n−1))/n, with M4/n and s² put in for
     /// μ4 and σ⁴; NaN for fewer than two numbers, and never below 0.

@@ -38,14 +38,15 @@ double false_alarm_of_one()
     return false_alarm / static_cast<double>(tests);
 }
 
-/// As many samples as this strategy's tests ask for, within what there is time for. A sample of
-/// `all` costs a draw per light.
+/// As many samples as this strategy's tests ask for, within what there is time for, and a few at
+/// least. A sample of `all` costs a draw per light.
 int samples_for(const Strategy& s, const Predicted& p, std::size_t lights, int draws_at_most)
 {
     const double per_sample = draws_every_light(s.policy) ? static_cast<double>(lights) : 1;
     const double most = draws_at_most / per_sample;
     const double kurtosis = p.variance > 0 ? p.fourth / square(p.variance) : 0;
-    return scaled(static_cast<int>(std::clamp(1001 * kurtosis, std::min(4000.0, most), most)));
+    const double wanted = std::clamp(1001 * kurtosis, std::min(4000.0, most), most);
+    return std::max(4, scaled(static_cast<int>(wanted)));
 }
 
 std::vector<Strategy> plain_strategies(bool cosine_ties)

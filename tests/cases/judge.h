@@ -17,9 +17,8 @@ struct Strictness {
 inline constexpr double mean_needs = 100, variance_needs = 1000;
 
 /// What of `measured` cannot be, if `predicted` is true; empty if nothing. Tested are
-/// - the mean: by a normal bound, corrected for skewness, where n ≥ mean_needs · kurtosis; by what
-/// holds for
-///   any distribution elsewhere;
+/// - the mean: by a normal bound, corrected for skewness, where n ≥ mean_needs · kurtosis; by
+///   what holds for any distribution elsewhere;
 /// - the variance, where n ≥ variance_needs · kurtosis.
 /// Both allow for the prediction's own error and for rounding.
 std::string disagreement(const Moments& measured, const Predicted& predicted,
