@@ -57,7 +57,8 @@ void add_run_options(CLI::App& command, RunOptions& options)
                        "picture size WxH in place of the scene's");
     command
         .add_option("--effects", options.effects,
-                    "auto: only what the scene calls for; all: everything")
+                    "auto: only what the scene and each tile of it call for; all: everything; "
+                    "NAME=off: auto, and refused where the scene calls for that effect")
         ->capture_default_str();
     command
         .add_option(

@@ -83,10 +83,19 @@ std::array<int, 2> parse_resolution(const std::string& text)
 
 }  // namespace
 
+std::string effect_off(const RunOptions& options)
+{
+    for (const char* name : {"shadows", "light_occlusion"})
+        if (options.effects == name + std::string("=off")) return name;
+    return "";
+}
+
 Scene read_scene_for(const std::string& file, const RunOptions& options)
 {
-    if (options.effects != "auto" && options.effects != "all")
-        throw UsageError("--effects: found \"" + options.effects + "\"; known are auto, all");
+    if (options.effects != "auto" && options.effects != "all" && effect_off(options).empty())
+        throw UsageError("--effects: found \"" + options.effects +
+                         "\"; known are auto, all, and NAME=off with a name of shadows, "
+                         "light_occlusion");
     if (options.sampler != "independent" && options.sampler != "sobol")
         throw UsageError("--sampler: found \"" + options.sampler +
                          "\"; known are independent, sobol");

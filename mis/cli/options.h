@@ -26,8 +26,8 @@ struct RunOptions {
     int threads = 0;  ///< 0: as many as the machine has
     std::uint64_t seed = 1;
     bool quiet = false;
-    std::string resolution;  ///< "WxH", or empty for the scene's
-    std::string effects = "auto";
+    std::string resolution;        ///< "WxH", or empty for the scene's
+    std::string effects = "auto";  ///< auto, all, or NAME=off
     std::string sampler = "independent";
     std::string command_line;
 
@@ -53,6 +53,9 @@ struct StopOptions {
 /// Throws UsageError unless the values make sense together; `least_spp` is the fewest samples the
 /// command can use.
 void check(const StopOptions& options, std::int64_t least_spp);
+
+/// The effect that --effects NAME=off names; empty where it is auto or all.
+std::string effect_off(const RunOptions& options);
 
 /// The scene of that file at the resolution that was asked for. Throws SceneError and UsageError.
 Scene read_scene_for(const std::string& file, const RunOptions& options);

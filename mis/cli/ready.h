@@ -1,8 +1,11 @@
 #pragma once
 
 #include "mis/cli/options.h"
+#include "mis/compare/explain.h"
 #include "mis/engine/lit_scene.h"
 #include "mis/trace/embree.h"
+
+#include <fmt/format.h>
 
 #include <memory>
 
@@ -19,9 +22,20 @@ struct ReadyScene {
           lit(scene, tracer.get(),
               options.effects == "all" ? all_effects(scene) : called_for(scene))
     {
+        if (const std::string name = effect_off(options); !name.empty()) require_off(name);
     }
     ReadyScene(const ReadyScene&) = delete;
     ReadyScene& operator=(const ReadyScene&) = delete;
+
+    /// Throws UsageError where some tile calls for that effect.
+    void require_off(const std::string& name) const
+    {
+        for (const EffectPlan& plan : explain(lit, executor).effects)
+            if (plan.name == name && plan.on)
+                throw UsageError(
+                    fmt::format("--effects {}=off: {:.3g} % of the tiles of {} call for it: {}",
+                                name, 100 * plan.share, scene.file, plan.why));
+    }
 
     AnyExecutor executor;
     Scene scene;

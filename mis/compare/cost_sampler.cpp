@@ -62,8 +62,8 @@ private:
             sum.cost = workspace.run(
                 ready_.job(
                     tile, std::span(points_.points.shading.points).subspan(tile.first, tile.count)),
-                ready_.pipeline(tile.material),
-                {stream << stream_bits, static_cast<int>(samples), 1}, results, {}, {});
+                ready_.pipeline(tile), {stream << stream_bits, static_cast<int>(samples), 1},
+                results, {}, {});
         });
         for (std::size_t i = 0; i < results.size(); ++i) {
             const std::size_t p = (tile.first + i) / points_.copies;

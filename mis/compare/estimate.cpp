@@ -1,6 +1,7 @@
 #include "mis/compare/estimate.h"
 
 #include "mis/math/moments.h"
+#include "mis/math/stable.h"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -67,8 +68,10 @@ LogEstimate log_contrast(std::span<const double> a, double weight_a, std::span<c
 
 namespace {
 
+/// NaN of none.
 double mean_of_totals(const RegionSums& figure)
 {
+    if (figure.empty()) return nan;
     double sum = 0;
     for (const std::vector<double>& replicate : figure)
         sum = std::accumulate(replicate.begin(), replicate.end(), sum);
@@ -81,7 +84,8 @@ LogEstimate log_contrast(const RegionSums& a, const RegionSums& b)
 {
     const std::size_t n = b.empty() ? a.size() : std::min(a.size(), b.size());
     const double mean_a = mean_of_totals(a), mean_b = b.empty() ? 1 : mean_of_totals(b);
-    LogEstimate contrast{std::log(mean_a / mean_b), nan, n > 0 ? as_double(n - 1) : 0};
+    const double ratio = mean_b != 0 ? mean_a / mean_b : mean_a * inverse(mean_b);
+    LogEstimate contrast{std::log(ratio), nan, n > 0 ? as_double(n - 1) : 0};
     if (n < 2 || !(mean_a > 0) || !(mean_b > 0)) return contrast;
     double variance = 0, squares = 0;
     std::vector<double> shares(n);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/effects/effects.h"
 #include "mis/engine/sample_name.h"
 #include "mis/strategy/strategy.h"
 
@@ -75,16 +76,6 @@ struct PairReport {
     Verdict time_verdict = Verdict::undecided;
 };
 
-struct EffectReport {
-    std::string name;
-    bool on = true;
-    double share = 1;  ///< of the tiles where it is on
-    std::string why;
-    double saved_rays_per_sample = std::numeric_limits<double>::quiet_NaN(),
-           saved_seconds_per_sample =
-               std::numeric_limits<double>::quiet_NaN();  ///< NaN: not measured
-};
-
 struct SceneReport {
     std::string file, name;
     std::size_t lights = 0, surfaces = 0, triangles = 0;
@@ -94,7 +85,7 @@ struct SceneReport {
     double epsilon = 0;  ///< of the relative variance
     bool settled = false, partial = false;
     double seconds = 0;  ///< wall
-    std::vector<EffectReport> effects;
+    std::vector<EffectPlan> effects;
     std::vector<StrategyReport> strategies;  ///< in the order asked for
     std::vector<PairReport> pairs;           ///< of ranked strategies
 };

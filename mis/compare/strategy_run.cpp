@@ -33,8 +33,7 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
         workspaces.with([&](Workspace<float>& workspace) {
             costs[t] = workspace.run(
                 ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
-                ready_.pipeline(tile.material), range,
-                std::span(results_).subspan(tile.first, tile.count),
+                ready_.pipeline(tile), range, std::span(results_).subspan(tile.first, tile.count),
                 weights.empty() ? weights : weights.subspan(tile.first, tile.count), totals[t]);
         });
         tiles_[t].samples_per_point += static_cast<std::uint64_t>(range.samples());
@@ -110,8 +109,7 @@ TimeObservation StrategyRun::try_out(int samples, std::size_t points,
             std::vector<PointResult> results(count);
             totals.add(workspace.run(
                 ready_.job(tile, std::span(points_->shading.points).subspan(tile.first, count)),
-                ready_.pipeline(tile.material), {std::uint64_t{1} << 40, samples, 1}, results, {},
-                {}));
+                ready_.pipeline(tile), {std::uint64_t{1} << 40, samples, 1}, results, {}, {}));
             tried += count;
         }
     });

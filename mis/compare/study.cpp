@@ -2,6 +2,7 @@
 
 #include "mis/compare/affordable.h"
 #include "mis/compare/pool.h"
+#include "mis/compare/savings.h"
 #include "mis/compare/schedule.h"
 #include "mis/compare/study_audit.h"
 #include "mis/compare/words.h"
@@ -76,9 +77,9 @@ private:
         report.height = study_.points->shading.height;
         report.shading_points = study_.points->figure_points;
         report.background_pixels = study_.points->shading.background.size();
-        for (const EffectPlan& plan : explained(scene, scene_.effects()))
-            report.effects.push_back(
-                {.name = plan.name, .on = plan.on, .share = plan.on ? 1.0 : 0.0, .why = plan.why});
+        const GBuffer& shading = study_.points->shading;
+        report.effects = explained(scene, scene_.effects(), effect_shares(shading));
+        measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report.effects);
     }
 
     /// What a first look at the costs allows; a rough picture of the scene, for the weights; how

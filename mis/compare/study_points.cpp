@@ -39,6 +39,7 @@ StudyPoints find_study_points(const LitScene& scene, const AnyExecutor& executor
         points.probe_point[probes.points[p].id - pixels] =
             static_cast<std::int64_t>(first_probe_point + p);
     append(points.shading, probes);
+    scene.plan(points.shading, executor);
     points.regions = std::min<std::size_t>(64, points.figure_tiles);
     return points;
 }

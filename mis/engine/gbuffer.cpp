@@ -148,4 +148,23 @@ GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
     return buffer;
 }
 
+void plan_tiles(GBuffer& buffer, const TilePlanner& planner, const AnyExecutor& executor)
+{
+    executor.for_each(buffer.tiles.size(), [&](std::size_t t) {
+        Tile& tile = buffer.tiles[t];
+        tile.plan = planner.plan(std::span(buffer.points).subspan(tile.first, tile.count));
+    });
+}
+
+EffectShares effect_shares(const GBuffer& buffer)
+{
+    EffectShares shares{0, 0};
+    for (const Tile& tile : buffer.tiles) {
+        shares.shadows += tile.plan.shadows ? 1 : 0;
+        shares.light_occlusion += tile.plan.light_occlusion ? 1 : 0;
+    }
+    const double tiles = static_cast<double>(std::max<std::size_t>(buffer.tiles.size(), 1));
+    return {shares.shadows / tiles, shares.light_occlusion / tiles};
+}
+
 }  // namespace mis

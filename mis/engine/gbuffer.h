@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/effects/tile_plan.h"
 #include "mis/run/executor.h"
 #include "mis/scene/scene.h"
 #include "mis/scene/shading_point.h"
@@ -16,6 +17,7 @@ struct Tile {
     std::uint32_t first = 0, count = 0;  ///< of GBuffer::points
     int material = 0;
     Vec3<double> origin{0};  ///< near its points
+    TilePlan plan = {};      ///< what is proved of it: plan_tiles()
 };
 
 /// A pixel that shows no surface.
@@ -44,6 +46,12 @@ inline constexpr int tile_side = 16;
 GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights,
                             const SurfaceTracer* surfaces, int first_row, int rows,
                             const AnyExecutor& executor);
+
+/// Finds out what each tile calls for, and leaves it there.
+void plan_tiles(GBuffer& buffer, const TilePlanner& planner, const AnyExecutor& executor);
+
+/// Of a buffer's tiles, how many call for an effect; 0 where there is no tile.
+EffectShares effect_shares(const GBuffer& buffer);
 
 /// The probes, each a tile of its own.
 GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,

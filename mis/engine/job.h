@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/effects/tile_plan.h"
 #include "mis/engine/batch.h"
 #include "mis/engine/light_order.h"
 #include "mis/policy/light_choice.h"
@@ -21,6 +22,7 @@ template <class T> struct TileJob {
     const LightOrder* order = nullptr;  ///< of tables and columns; nullptr: the scene's
     const LightHierarchy* hierarchy = nullptr;
     const SurfaceTracer* surfaces = nullptr;  ///< nullptr where none can occlude
+    std::span<const std::uint8_t> proofs;     ///< [light] LightProof bits; empty: nothing is proved
     Vec3<double> origin{0};                   ///< of the columns
     LightColumns<T> columns;       ///< for policies that look at the point, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
@@ -33,6 +35,12 @@ template <class T> struct TileJob {
     std::uint32_t draws_per_light = 1;  ///< or per sample, where the policy draws one
     std::uint32_t bsdf_draws = 1;       ///< per sample
 
+    /// Is that proved of a light?
+    MIS_INLINE bool knows(LightIndex light, LightProof proof) const
+    {
+        return !proofs.empty() && light >= 0 &&
+               (proofs[static_cast<std::size_t>(light)] & proof) != 0;
+    }
     /// The light at a place of the tables, and back.
     MIS_INLINE LightIndex light_at(LightIndex place) const
     {

@@ -6,7 +6,8 @@
 namespace mis {
 
 LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects)
-    : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights)
+    : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights),
+      planner_(scene, effects, surfaces != nullptr ? surfaces->origin() : Vec3<double>(0))
 {
     for (const Material& material : scene.materials) bsdfs_.push_back(make_bsdf(material));
 }
@@ -23,8 +24,16 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
     } else if (strategy.chooses_light()) {
         policy_ = make_policy(strategy.policy, lights);
     }
-    for (const Material& material : scene.scene().materials)
-        pipelines_.push_back(compose(kernels, strategy, material.type, scene.effects(), numbers));
+    for (const Material& material : scene.scene().materials) {
+        pipelines_.emplace_back();
+        for (const bool shadows : {false, true})
+            for (const bool light_occlusion : {false, true}) {
+                Effects effects = scene.effects();
+                effects.shadows &= shadows, effects.light_occlusion &= light_occlusion;
+                pipelines_.back()[shadows][light_occlusion] =
+                    compose(kernels, strategy, material.type, effects, numbers);
+            }
+    }
     common_.lights = &lights;
     common_.order = order_.get();
     common_.hierarchy = &scene.lights();
@@ -50,6 +59,7 @@ TileJob<T> ReadyStrategy<T>::job(const Tile& tile, std::span<const ShadingPoint>
     TileJob<T> job = common_;
     job.points = points;
     job.origin = tile.origin;
+    job.proofs = tile.plan.lights;
     const AnyBsdf bsdf = scene_->bsdf(tile.material);
     job.bsdf = bsdf.object, job.bsdf_type = bsdf.type;
     return job;

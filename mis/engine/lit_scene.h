@@ -2,6 +2,7 @@
 
 #include "mis/bsdf/any_bsdf.h"
 #include "mis/effects/effects.h"
+#include "mis/effects/tile_plan.h"
 #include "mis/engine/gbuffer.h"
 #include "mis/engine/tile.h"
 #include "mis/run/pool.h"
@@ -25,6 +26,11 @@ public:
     const Effects& effects() const { return effects_; }
     const LightHierarchy& lights() const { return hierarchy_; }
     const SurfaceTracer* surfaces() const { return surfaces_; }
+    /// Finds out what each tile calls for, where that is asked for.
+    void plan(GBuffer& buffer, const AnyExecutor& executor) const
+    {
+        if (effects_.by_tile) plan_tiles(buffer, planner_, executor);
+    }
     AnyBsdf bsdf(int material) const
     {
         const auto i = static_cast<std::size_t>(material);
@@ -36,10 +42,12 @@ private:
     const SurfaceTracer* surfaces_;
     Effects effects_;
     LightHierarchy hierarchy_;
+    TilePlanner planner_;
     std::vector<std::shared_ptr<const void>> bsdfs_;
 };
 
-/// One strategy made ready on a scene: its policy's tables, and a pipeline per material.
+/// One strategy made ready on a scene: its policy's tables, and pipelines for each material, from
+/// all that the scene calls for down to what the leanest tile does.
 template <class T> class ReadyStrategy {
 public:
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
@@ -47,18 +55,25 @@ public:
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
-    const Pipeline<T>& pipeline(int material) const
+    const Pipeline<T>& pipeline(int material) const { return pipeline(material, TilePlan{}); }
+    const Pipeline<T>& pipeline(const Tile& tile) const
     {
-        return pipelines_[static_cast<std::size_t>(material)];
+        return pipeline(tile.material, tile.plan);
     }
     const Strategy& strategy() const { return strategy_; }
 
 private:
+    const Pipeline<T>& pipeline(int material, const TilePlan& plan) const
+    {
+        return pipelines_[static_cast<std::size_t>(material)][plan.shadows][plan.light_occlusion];
+    }
+
     const LitScene* scene_;
     Strategy strategy_;
     std::shared_ptr<const LightOrder> order_;  ///< of Sobol' numbers; else the scene's
     std::shared_ptr<const void> policy_;
-    std::vector<Pipeline<T>> pipelines_;  ///< [material]
+    /// [material][with shadows][with light occlusion]
+    std::vector<std::array<std::array<Pipeline<T>, 2>, 2>> pipelines_;
     TileJob<T> common_;
 };
 

@@ -7,6 +7,7 @@ Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor
     Band band{find_shading_points(scene.scene(), scene.lights(), scene.surfaces(), first_row, rows,
                                   executor),
               {}};
+    scene.plan(band.shading, executor);
     band.results.resize(band.shading.points.size());
     return band;
 }
@@ -23,7 +24,7 @@ TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uin
         const auto points = std::span(shading.points).subspan(tile.first, tile.count);
         workspaces.with([&](Workspace<float>& workspace) {
             totals[t] =
-                workspace.run(strategy.job(tile, points), strategy.pipeline(tile.material),
+                workspace.run(strategy.job(tile, points), strategy.pipeline(tile),
                               {.first = first, .chunk = count, .chunks = 1},
                               std::span(band.results).subspan(tile.first, tile.count), {}, {});
         });

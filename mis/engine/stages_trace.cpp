@@ -136,6 +136,7 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
         if (is_zero(batch.contribution, row)) continue;
         if (is_screened && batch.candidate[static_cast<std::size_t>(row)] == 0) continue;
         const LightIndex j = batch.light[static_cast<std::size_t>(row)];
+        if (job.knows(j, unhidden)) continue;
         const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
         const Vec3<double> x = shading_point(job, batch, row).x;
         const Vec3<double> to_center = light.center - x, wi = exact_direction(job, batch, row);
@@ -153,6 +154,7 @@ template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
     std::size_t count = 0;
     for (int row = 0; row < batch.rows; ++row) {
         if (is_zero(batch.contribution, row)) continue;
+        if (job.knows(batch.light[static_cast<std::size_t>(row)], unshadowed)) continue;
         row_of[count] = row;
         rays[count++] = {shading_point(job, batch, row).ray_origin,
                          vec_cast<float>(batch.wi.at(row)),

@@ -97,12 +97,20 @@ template <class T> struct Workspace<T>::Run {
         std::fill_n(batch.value.z.begin(), batch.samples, 0.0);
         const std::size_t lights = pipeline.draws_every_light ? job.lights->size() : 1;
         const std::uint32_t light_draws = static_cast<std::uint32_t>(pipeline.light_draws * lights);
-        for (std::uint32_t draw = 0; draw < light_draws; ++draw) run_half(pipeline.light, draw);
+        for (std::uint32_t draw = 0; draw < light_draws; ++draw)
+            if (!is_below(draw)) run_half(pipeline.light, draw);
         for (int draw = 0; draw < pipeline.bsdf_draws; ++draw)
             run_half(pipeline.bsdf, static_cast<std::uint32_t>(draw));
         take_in();
         batch.samples = 0;
         batch.rows_are_samples = false;
+    }
+
+    /// Does a draw go to one light for all samples, which no point of the tile sees?
+    bool is_below(std::uint32_t draw) const
+    {
+        return pipeline.draws_every_light &&
+               job.knows(static_cast<LightIndex>(draw / job.draws_per_light), below);
     }
 
     void run_half(const std::vector<NamedStage<T>>& stages, std::uint32_t draw)

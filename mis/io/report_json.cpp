@@ -71,7 +71,7 @@ Json pair(const PairReport& p, const SceneReport& scene)
             {"time_verdict", name_of(p.time_verdict)}};
 }
 
-Json effect(const EffectReport& e)
+Json effect(const EffectPlan& e)
 {
     return {{"on", e.on},
             {"share", json_figure(e.share)},
@@ -96,7 +96,7 @@ Json scene(const SceneReport& s, const Report& report)
               {"partial", s.partial},
               {"seconds", json_figure(s.seconds)}};
     json["effects"] = Json::object();
-    for (const EffectReport& e : s.effects) json["effects"][e.name] = effect(e);
+    for (const EffectPlan& e : s.effects) json["effects"][e.name] = effect(e);
     json["strategies"] = Json::array();
     for (const StrategyReport& each : s.strategies) json["strategies"].push_back(strategy(each));
     json["pairs"] = Json::array();

@@ -193,7 +193,7 @@ PairReport pair(const JsonNode& node, const std::map<std::string, int>& index)
     return p;
 }
 
-EffectReport effect(const std::string& name, const JsonNode& node)
+EffectPlan effect(const std::string& name, const JsonNode& node)
 {
     return {name,
             truth(node["on"]),

@@ -31,7 +31,7 @@ std::string heading(const SceneReport& scene, const Report& report)
 std::string effects(const SceneReport& scene)
 {
     std::string on, off;
-    for (const EffectReport& e : scene.effects) {
+    for (const EffectPlan& e : scene.effects) {
         std::string& list = e.on ? on : off;
         list += (list.empty() ? "" : ", ") + e.name;
         if (e.on && e.share < 1) list += fmt::format(" ({:.0f} % of tiles)", 100 * e.share);

@@ -51,14 +51,15 @@ template <class T> struct Lune {
     T end;      ///< T_t, in [0, 1]
     T end_gap;  ///< 1 − T_t²
 
+    /// Of a cap that the horizon does not cut, where z2 ≤ 0, one of no use but finite.
     MIS_INLINE Lune(const TiltedCap<T>& cap, const T& z2)
         : s(cap.sin_max), cos_max(cap.cos_max), sin_beta(cap.sin_beta)
     {
         using std::abs, std::sqrt;
         mu = min_of(T(abs(height_over_sin(cap))), number<T>(1));
         const T rise = mu * cos_max, both = max_of(T(sin_beta + rise), number<T>(1e-30));
-        end = min_of(T(sqrt(z2) / both), number<T>(1));
-        end_gap = number<T>(2) * rise / both;
+        end = min_of(T(sqrt(max_of(z2, number<T>(0))) / both), number<T>(1));
+        end_gap = min_of(T(number<T>(2) * rise / both), number<T>(1));
     }
 
     /// 1 − T² at T = T_t (1 − p).

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "mis/effects/effects.h"
+#include "mis/effects/shaft.h"
+#include "mis/scene/shading_point.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mis {
+
+/// What is proved of the points of a tile and one light; bits.
+enum LightProof : std::uint8_t {
+    unshadowed = 1,  ///< no surface stands between them
+    unhidden = 2,    ///< no other light does
+    below = 4        ///< the light is wholly below the horizon of every point
+};
+
+/// What one tile calls for. Plain data.
+struct TilePlan {
+    bool shadows = true, light_occlusion = true;  ///< for any light that is not below
+    std::vector<std::uint8_t> lights;             ///< [light]: its proofs; empty: none
+};
+
+/// Finds the plans of a scene's tiles: what surfaces and lights provably do not stand between the
+/// points of a tile and a light, by planes that separate them from all that lies between. A gap
+/// must be wider than what float rays may pass beside.
+class TilePlanner {
+public:
+    /// frame: SurfaceTracer::origin(); scene: kept by reference.
+    TilePlanner(const Scene& scene, const Effects& effects, const Vec3<double>& frame);
+
+    TilePlan plan(std::span<const ShadingPoint> points) const;
+
+private:
+    /// A surface as the proofs see it: the hull of some corners, or a ball.
+    struct Body {
+        std::vector<Vec3<double>> corners;  ///< of a quad or a mesh's box; empty: a ball
+        Vec3<double> center{0};
+        double radius = 0;  ///< around all of it
+        bool is_flat = false;
+        Vec3<double> normal{0};  ///< of a quad
+        double clearance = 0;    ///< of a quad: above it, rays start off it
+    };
+
+    /// How far ray origins of a tile lie above a quad's plane, and below it, at least.
+    struct Heights {
+        double above, below;
+    };
+    struct TileBounds;
+
+    TileBounds bounds_of(std::span<const ShadingPoint> points) const;
+    Heights heights(const Body& quad, std::span<const ShadingPoint> points) const;
+    bool is_unshadowed(const TileBounds& tile, const Shaft& shaft) const;
+    bool is_unhidden(const Shaft& shaft, std::size_t light) const;
+    void prove_all_at_once(const TileBounds& tile, TilePlan& plan) const;
+    void prove_each(const TileBounds& tile, TilePlan& plan) const;
+
+    const Scene* scene_;
+    Effects effects_;
+    Vec3<double> frame_;
+    std::vector<Body> bodies_;
+    Vec3<double> lights_center_{0};
+    double lights_radius_ = 0;
+};
+
+}  // namespace mis
