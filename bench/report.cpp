@@ -68,8 +68,9 @@ std::string stages_table(const Figures& figures)
         heads.emplace_back(stage == "light_occlusion" ? "lights" : stage);
     heads.emplace_back("rays per");
     Rows table{heads};
-    for (const auto& [name, counters] : figures.all()) {
-        if (!counters.contains("ns_per_sample")) continue;
+    for (const auto& entry : figures.all()) {
+        const std::string& name = entry.first;
+        if (!entry.second.contains("ns_per_sample")) continue;
         const auto ns = [&](const std::string& counter) {
             const double median = figures.at(name, counter).median;
             return median < 0.05 ? std::string("-") : fmt::format("{:.1f}", median);
