@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <optional>
+#include <span>
 #include <thread>
 
 namespace mis::bench {
@@ -106,6 +108,8 @@ int run(std::span<char*> arguments)
     add_light_counts();
     add_memory();
     add_scenes();
+    std::optional<AtomicFile> out;  // opened first: minutes must not be lost to a wrong path
+    if (!options.out.empty()) out.emplace(options.out);
     Collector collector;
     if (benchmark::RunSpecifiedBenchmarks(&collector) == 0) {
         std::fputs("bench: no benchmark has such a name; --benchmark_list_tests lists them\n",
@@ -117,11 +121,12 @@ int run(std::span<char*> arguments)
         return 1;
     }
     const Figures& figures = collector.figures();
+    if (figures.all().empty()) return 0;  // they were only listed
     const Bars bars = all_bars(figures);
     const Setting setting{machine(), std::string(kernels<float>().instruction_set),
                           collector.repetitions()};
     std::fputs(table_of(bars, figures, setting).c_str(), stdout);
-    if (!options.out.empty()) write_text(options.out, json_of(bars, figures, setting));
+    if (out) out->write(json_of(bars, figures, setting)), out->commit();
     return 0;
 }
 
