@@ -7,7 +7,7 @@ usage() {
     cat <<'END'
 ./do COMMAND …     builds mis where needed and runs `mis COMMAND …`; try ./do compare scenes/veach.json
 ./do test …        builds and runs the tests; … goes to ctest (-R NAME, -V)
-./do bench …       builds and runs the benchmarks; … goes to each of them (--benchmark_filter=NAME)
+./do bench …       measures every bar of docs/performance.md; --quick, --out FILE, --benchmark_filter=REGEX, …
 ./do fuzz SECONDS  lets libFuzzer loose on each reader of files for so long (600)
 ./do format        formats the sources; ./do format --check only says what it would change
 ./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci)
@@ -104,12 +104,9 @@ case ${1-} in
         ;;
     bench)
         build benches
-        shopt -s nullglob
-        for source in "$root"/bench/*.cpp; do
-            name=$(basename "$source" .cpp)
-            say "bench_$name"
-            "$root/build/release/bin/bench_$name" "${@:2}"
-        done
+        [[ -x $root/build/release/bin/mis_bench ]] || fail "the benchmarks need Embree, oneTBB and the io packages"
+        say "some minutes; all figures go to build/bench.json"
+        "$root/build/release/bin/mis_bench" --out "$root/build/bench.json" "${@:2}"
         ;;
     fuzz)
         need_packages build ci

@@ -139,8 +139,10 @@ template <class T> struct Workspace<T>::Run {
             const std::size_t point = batch.tile_point[static_cast<std::size_t>(slot)];
             const std::span<const double> observed = observations(first, end);
             results[point].luminance.merge(Moments::of(observed));
+            Vec3<double> sum = results[point].radiance_sum;  // not through memory, sample by sample
             for (std::size_t i = first; i < end; ++i)
-                results[point].radiance_sum += share * batch.value.at(static_cast<int>(i));
+                sum += share * batch.value.at(static_cast<int>(i));
+            results[point].radiance_sum = sum;
             if (!totals.empty()) add_to_chunks(point, first, observed);
             first = end;
         }

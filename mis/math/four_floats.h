@@ -18,6 +18,7 @@ struct FourFloats {
     __m128 lanes;
 };
 MIS_INLINE FourFloats four(float x) { return {_mm_set1_ps(x)}; }
+MIS_INLINE FourFloats four(float x, float y, float z, float w) { return {_mm_setr_ps(x, y, z, w)}; }
 MIS_INLINE FourFloats four_of(const float* from) { return {_mm_loadu_ps(from)}; }
 MIS_INLINE FourFloats operator*(FourFloats a, FourFloats b)
 {
@@ -26,6 +27,18 @@ MIS_INLINE FourFloats operator*(FourFloats a, FourFloats b)
 MIS_INLINE FourFloats operator+(FourFloats a, FourFloats b)
 {
     return {_mm_add_ps(a.lanes, b.lanes)};
+}
+MIS_INLINE FourFloats operator-(FourFloats a, FourFloats b)
+{
+    return {_mm_sub_ps(a.lanes, b.lanes)};
+}
+MIS_INLINE FourFloats operator/(FourFloats a, FourFloats b)
+{
+    return {_mm_div_ps(a.lanes, b.lanes)};
+}
+MIS_INLINE FourFloats magnitude(FourFloats a)
+{
+    return {_mm_andnot_ps(_mm_set1_ps(-0.0F), a.lanes)};
 }
 MIS_INLINE FourFloats smaller(FourFloats a, FourFloats b) { return {_mm_min_ps(a.lanes, b.lanes)}; }
 MIS_INLINE FourFloats larger(FourFloats a, FourFloats b) { return {_mm_max_ps(a.lanes, b.lanes)}; }
@@ -45,6 +58,7 @@ template <class Of> MIS_INLINE FourFloats each(const Of& of)
     return {{of(0), of(1), of(2), of(3)}};
 }
 MIS_INLINE FourFloats four(float x) { return {{x, x, x, x}}; }
+MIS_INLINE FourFloats four(float x, float y, float z, float w) { return {{x, y, z, w}}; }
 MIS_INLINE FourFloats four_of(const float* from) { return {{from[0], from[1], from[2], from[3]}}; }
 MIS_INLINE FourFloats operator*(FourFloats a, FourFloats b)
 {
@@ -53,6 +67,18 @@ MIS_INLINE FourFloats operator*(FourFloats a, FourFloats b)
 MIS_INLINE FourFloats operator+(FourFloats a, FourFloats b)
 {
     return each([&](int k) { return a.lanes[k] + b.lanes[k]; });
+}
+MIS_INLINE FourFloats operator-(FourFloats a, FourFloats b)
+{
+    return each([&](int k) { return a.lanes[k] - b.lanes[k]; });
+}
+MIS_INLINE FourFloats operator/(FourFloats a, FourFloats b)
+{
+    return each([&](int k) { return a.lanes[k] / b.lanes[k]; });
+}
+MIS_INLINE FourFloats magnitude(FourFloats a)
+{
+    return each([&](int k) { return a.lanes[k] < 0 ? -a.lanes[k] : a.lanes[k]; });
 }
 MIS_INLINE FourFloats smaller(FourFloats a, FourFloats b)
 {

@@ -106,9 +106,8 @@ template <class T> struct SeenLight {
     MIS_INLINE T solid_angle_over_sin() const
     {
         using std::sqrt;
-        const T cos_max =
-            sqrt(max_of((distance - radius) * (distance + radius), number<T>(0))) / distance;
-        return radius / distance / (number<T>(1) + cos_max);
+        const T along = sqrt(max_of((distance - radius) * (distance + radius), number<T>(0)));
+        return radius / (distance + along);  // over d above and below: one division
     }
 
     /// Its cap over the surface of normal n. A point that rounding puts into the light is on it.

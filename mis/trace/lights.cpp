@@ -11,10 +11,9 @@ bool may_hold(const LightHierarchy::Node& node, std::size_t k, const Vec3<float>
 {
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        const float margin =
-            1e-6F * (std::abs(p[axis]) + std::abs(node.origin[a]) + 255 * node.step[a]);
-        const float low = node.origin[a] + static_cast<float>(node.low[a][k]) * node.step[a],
-                    high = node.origin[a] + static_cast<float>(node.high[a][k]) * node.step[a];
+        const float margin = 1e-6F * std::abs(p[axis]);
+        const float low = node.low_origin[a] + static_cast<float>(node.low[a][k]) * node.step[a],
+                    high = node.high_origin[a] + static_cast<float>(node.high[a][k]) * node.step[a];
         if (p[axis] < low - margin || p[axis] > high + margin) return false;
     }
     return true;
@@ -26,7 +25,7 @@ bool LightHierarchy::contains(const Vec3<double>& x) const
 {
     if (nodes_.empty()) return false;
     const Vec3<float> p = vec_cast<float>(x - origin_);
-    std::array<std::uint32_t, most_waiting> stack;  // NOLINT: filled before it is read
+    std::array<std::uint32_t, WaitingNodes::most> stack;  // NOLINT: filled before it is read
     std::size_t depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {

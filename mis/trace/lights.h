@@ -63,7 +63,9 @@ public:
     /// Up to eight boxes, on a grid of 255 steps across the box around them all. Its first children
     /// are nodes, the others single lights.
     struct Node {
-        std::array<float, 3> origin, step;  ///< of the grid; origin relative to the tree's
+        /// Of the grid; origins are relative to the tree's, one for lower and one for upper bounds,
+        /// apart by the room for rounding.
+        std::array<float, 3> low_origin, high_origin, step;
         std::array<std::array<std::uint8_t, width>, 3> low, high;  ///< [axis][child], in steps
         std::uint32_t first_node, first_light;                     ///< of nodes_; of order_
         std::uint8_t nodes, lights;
@@ -78,61 +80,51 @@ private:
     void walk(const Vec3<double>& x, const Vec3<double>& wi, double limit, LightIndex but,
               const Meet& meet) const;
 
-    /// Nodes that wait while one is looked at: 7 on each of at most 50 levels.
-    static constexpr std::size_t most_waiting = 352;
-
     const Lights* lights_;
     Vec3<double> origin_{0};
     std::vector<Node> nodes_;
     std::vector<LightIndex> order_;
 };
 
+/// Nodes that wait while one is looked at, and where the ray enters them: at most 7 on each of 50
+/// levels, and room to write eight at once.
+struct WaitingNodes {
+    static constexpr std::size_t most = 352 + LightHierarchy::width;
+    std::array<std::uint32_t, most> node;  // NOLINT: filled before it is read
+    std::array<float, most> near;          // NOLINT
+    std::size_t count = 0;
+};
+
 /// A ray as the boxes see it: in float, every box wider by what rounding may come to, which is
 /// below 1e-6 of the coordinates at hand: three roundings of t (Ize 2013, "Robust BVH Ray
-/// Traversal"), one of the origin and one of the direction.
-class BoxRay {
-public:
-    MIS_INLINE BoxRay(const Vec3<double>& origin, const Vec3<double>& direction)
+/// Traversal"), one of the origin and one of the direction. The fourth numbers are padding.
+struct BoxRay {
+    BoxRay(const Vec3<double>& from, const Vec3<double>& direction)
     {
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            origin_[a] = static_cast<float>(origin[axis]);
-            const float d = static_cast<float>(direction[axis]);
-            inverse_[a] = 1 / (std::abs(d) > 1e-20F ? d : std::copysign(1e-20F, d));
-        }
+        const Vec3<float> o = vec_cast<float>(from), d = vec_cast<float>(direction);
+        const FourFloats at = four(o.x, o.y, o.z, 0);
+        const FourFloats margin = magnitude(at) * four(1e-6F);
+        put(at - margin, low_origin.data());
+        put(at + margin, high_origin.data());
+        put(four(1) / four(not_zero(d.x), not_zero(d.y), not_zero(d.z), 1), inverse.data());
     }
 
-    /// Bit k: the ray meets the box of child k before `limit`; near: where, for every child.
-    MIS_INLINE std::uint32_t meets(const LightHierarchy::Node& node, float limit,
-                                   std::array<float, LightHierarchy::width>& near) const
+    /// Puts the children that are nodes and whose boxes the ray meets before `limit` onto the
+    /// stack; returns the lights whose boxes it meets: bit k is light `first_light` + k.
+    std::uint32_t open(const LightHierarchy::Node& node, float limit, WaitingNodes& stack) const
     {
-        FourFloats from_a = four(0), from_b = four(0), to_a = four(limit), to_b = four(limit);
-        for (std::size_t a = 0; a < 3; ++a) {
-            const float margin =
-                1e-6F * (std::abs(origin_[a]) + std::abs(node.origin[a]) + 255 * node.step[a]);
-            const FourFloats step = four(node.step[a] * inverse_[a]);
-            const FourFloats low = four((node.origin[a] - margin - origin_[a]) * inverse_[a]),
-                             high = four((node.origin[a] + margin - origin_[a]) * inverse_[a]);
-            const EightFloats low_steps = eight_of(node.low[a].data()),
-                              high_steps = eight_of(node.high[a].data());
-            narrow(low_steps.a * step + low, high_steps.a * step + high, from_a, to_a);
-            narrow(low_steps.b * step + low, high_steps.b * step + high, from_b, to_b);
-        }
-        put(from_a, &near[0]), put(from_b, &near[4]);
-        const std::uint32_t met = not_above(from_a, to_a) | not_above(from_b, to_b) << 4;
-        return met & ((1U << (node.nodes + node.lights)) - 1);
+        return open_node(*this, node, limit, stack);
     }
+
+    alignas(16) std::array<float, 4> low_origin{}, high_origin{}, inverse{};
 
 private:
-    /// The part of [from, to] that is also between t0 and t1, in either order.
-    MIS_INLINE static void narrow(const FourFloats& t0, const FourFloats& t1, FourFloats& from,
-                                  FourFloats& to)
-    {
-        from = larger(from, smaller(t0, t1));
-        to = smaller(to, larger(t0, t1));
-    }
+    using OpenNode = std::uint32_t (*)(const BoxRay&, const LightHierarchy::Node&, float limit,
+                                       WaitingNodes&);
+    static float not_zero(float d) { return std::abs(d) > 1e-20F ? d : std::copysign(1e-20F, d); }
 
-    std::array<float, 3> origin_{}, inverse_{};
+    /// By the widest vectors that this processor has; all give the same bits.
+    static const OpenNode open_node;
 };
 
 template <class Meet>
@@ -140,27 +132,17 @@ void LightHierarchy::walk(const Vec3<double>& x, const Vec3<double>& wi, double 
                           LightIndex but, const Meet& meet) const
 {
     if (nodes_.empty()) return;
-    struct Waiting {
-        std::uint32_t node;
-        float near;
-    };
     const BoxRay ray(x - origin_, wi);
-    std::array<Waiting, most_waiting> stack;  // NOLINT: filled before it is read
-    std::array<float, width> near;            // NOLINT
-    std::size_t depth = 0;
+    WaitingNodes stack;  // NOLINT
+    stack.node[0] = 0, stack.near[0] = 0, stack.count = 1;
     float box_limit = static_cast<float>(limit) * 1.000001F;
-    stack[depth++] = {0, 0};
-    while (depth > 0) {
-        const Waiting next = stack[--depth];
-        if (next.near > box_limit) continue;
-        const Node& node = nodes_[next.node];
-        for (std::uint32_t met = ray.meets(node, box_limit, near); met != 0; met &= met - 1) {
-            const auto k = static_cast<std::uint32_t>(std::countr_zero(met));
-            if (k < node.nodes) {
-                stack[depth++] = {node.first_node + k, near[k]};
-                continue;
-            }
-            const LightIndex j = order_[node.first_light + k - node.nodes];
+    while (stack.count > 0) {
+        const std::size_t next = --stack.count;
+        if (stack.near[next] > box_limit) continue;
+        const Node& node = nodes_[stack.node[next]];
+        for (std::uint32_t met = ray.open(node, box_limit, stack); met != 0; met &= met - 1) {
+            const LightIndex j =
+                order_[node.first_light + static_cast<std::uint32_t>(std::countr_zero(met))];
             if (j == but) continue;
             const Light& light = (*lights_)[static_cast<std::size_t>(j)];
             const Vec3<double> to_center = light.center - x;

@@ -88,19 +88,22 @@ public:
     {
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
-            node.origin[a] = rounded_down(around.low[axis]);
-            const double extent = around.high[axis] - static_cast<double>(node.origin[a]);
-            node.step[a] = std::max(rounded_up(extent / 255 * (1 + 1e-6)), 1e-30F);
+            const float origin = rounded_down(around.low[axis]);
+            const double extent = around.high[axis] - static_cast<double>(origin);
+            const float step = std::max(rounded_up(extent / 255 * (1 + 1e-6)), 1e-30F);
+            const float margin = 1e-6F * (std::abs(origin) + 255 * step);
+            node.step[a] = step;
+            node.low_origin[a] = origin - margin, node.high_origin[a] = origin + margin;
+            origin_[axis] = static_cast<double>(origin);
         }
     }
     void put(std::size_t child, const Box& box)
     {
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
-            const double origin = static_cast<double>(node_.origin[a]),
-                         step = static_cast<double>(node_.step[a]);
-            const double low = std::floor((box.low[axis] - origin) / step),
-                         high = std::ceil((box.high[axis] - origin) / step);
+            const auto step = static_cast<double>(node_.step[a]);
+            const double low = std::floor((box.low[axis] - origin_[axis]) / step),
+                         high = std::ceil((box.high[axis] - origin_[axis]) / step);
             node_.low[a][child] = static_cast<std::uint8_t>(std::clamp(low, 0.0, 255.0));
             node_.high[a][child] = static_cast<std::uint8_t>(std::clamp(high, 0.0, 255.0));
         }
@@ -108,6 +111,7 @@ public:
 
 private:
     LightHierarchy::Node& node_;
+    Vec3<double> origin_{0};
 };
 
 }  // namespace
