@@ -396,5 +396,33 @@ TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
     EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
 }
 
+/// Mean and variance of every strategy of a report, to the last digit that is written.
+std::string figures_of(const std::string& report)
+{
+    std::string figures;
+    for (const auto& strategy : nlohmann::json::parse(report).at("scenes").at(0).at("strategies"))
+        figures += strategy.at("name").dump() + strategy.at("mean").dump() +
+                   strategy.at("variance").dump() + strategy.at("invalid_samples").dump() + "\n";
+    return figures;
+}
+
+TEST(Effects, LeftOutChangeNoDigitOnAnyShippedScene)
+{
+    int scenes = 0;
+    for (const auto& file : std::filesystem::directory_iterator(source_dir() / "scenes")) {
+        if (file.path().extension() != ".json") continue;
+        const std::string words =
+            "compare '" + file.path().string() +
+            "' --resolution 24x16 --spp 32 --quiet --json - --strategy "
+            "uniform/power,solid-angle/light,all/balance,radiant-solid-angle/maximum/union,brdf";
+        const Outcome all = mis_with(words + " --effects all"), leaner = mis_with(words);
+        ASSERT_EQ(all.exit, 0) << all.error;
+        ASSERT_EQ(leaner.exit, 0) << leaner.error;
+        EXPECT_EQ(figures_of(all.out), figures_of(leaner.out)) << file.path();
+        ++scenes;
+    }
+    EXPECT_GE(scenes, 10);
+}
+
 }  // namespace
 }  // namespace mis
