@@ -22,7 +22,7 @@ template <class T> struct TileJob {
     const LightHierarchy* hierarchy = nullptr;
     const SurfaceTracer* surfaces = nullptr;  ///< nullptr where none can occlude
     Vec3<double> origin{0};                   ///< of the columns
-    LightColumns<T> columns;       ///< for policies that look at the point, and for screening
+    LightColumns<T> columns;       ///< for policies that look at all lights, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
     int bsdf_type = -1;  ///< its number in the registry
