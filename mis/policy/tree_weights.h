@@ -102,7 +102,7 @@ MIS_INLINE void weigh_parts(const Reflection& reflection, const TreePoint<Scalar
                                       reflected.lobe * (uneven + reflected.lobe_variance));
         // Nearly all of the power is far away, as a sun's, but other lights may be near.
         const T first = select(d * d > number<T>(100) * spread2, T(doubt * number<T>(1e12)), doubt);
-        store_lanes(&doubts[k], select(d <= reach, first, doubt));
+        store_lanes(&doubts[k], select(d <= number<T>(2) * reach, first, doubt));
     }
     for (std::size_t k = 0; k < LightTree::width; ++k) weights[k] = static_cast<double>(found[k]);
 }
