@@ -17,7 +17,7 @@ double least_seconds(const StudyGround& ground, const Strategy& strategy, int sa
                  points = static_cast<double>(ground.points.figure_lit);
     if (!strategy.chooses_light()) return 0;
     if (draws_every_light(strategy.policy)) return points * lights * samples * 10e-9;
-    return looks_at_point(strategy.policy) ? points * lights * 0.5e-9 : 0;
+    return reads_all_lights(strategy.policy) ? points * lights * 0.5e-9 : 0;
 }
 
 double tried_out(const StudyGround& ground, const Strategy& strategy, int samples)

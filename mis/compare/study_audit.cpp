@@ -24,7 +24,7 @@ std::size_t affordable_points(const StudyGround& ground, std::span<const Strateg
 {
     std::size_t prepared = 1;
     for (const Strategy& s : strategies)
-        prepared += s.chooses_light() && looks_at_point(s.policy) ? 1 : 0;
+        prepared += s.chooses_light() && reads_all_lights(s.policy) ? 1 : 0;
     const std::size_t most = 50'000'000 / (prepared * ground.scene.scene().lights.size() + 1) + 4;
     return std::min<std::size_t>(1024, most);
 }

@@ -48,14 +48,14 @@ public:
     }
 
     /// Another radiance for light j, W·sr⁻¹·m⁻², with the sphere as it is: the hierarchy stays.
-    /// O(1) for policies that look at the point, O(M) for those with a table for all points. Points
+    /// O(1) for policies that look at all lights at each point; the others are made anew. Points
     /// made before are prepared again by move_to.
     void recolor(LightIndex j, const Vec3<double>& radiance)
     {
         Light& light = lights_[static_cast<std::size_t>(j)];
         light = make_light(light.center, light.radius, radiance);
         luminance_[static_cast<std::size_t>(j)] = static_cast<T>(luminance_radius(light));
-        if constexpr (!Policy::looks_at_point) policy_ = Policy(lights_);
+        if constexpr (!Policy::reads_all_lights) policy_ = Policy(lights_);
     }
 
 private:
@@ -99,7 +99,7 @@ public:
     {
     }
 
-    /// To position x (scene units) with unit normal n. O(M) for policies that look at the point,
+    /// To position x (scene units) with unit normal n. O(M) for policies that look at all lights,
     /// O(log M) for the others (is x inside a light?). A position or normal that is not finite, and
     /// one inside a light, is not lit.
     /// wo (unit, scene axes) and bsdf are for policies that look at them (`product`); without, such
@@ -115,7 +115,8 @@ public:
         scratch_.clear();
         if (is_lit_)
             table_.emplace(lights_->policy().template prepare<T>(
-                {vec_cast<T>(x - lights_->origin()), n, frame_around(n).to_local(wo), bsdf},
+                {vec_cast<T>(x - lights_->origin()), n, frame_around(n).to_local(wo), bsdf,
+                 lights_->origin()},
                 lights_->columns(), scratch_));
     }
 

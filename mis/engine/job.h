@@ -24,7 +24,7 @@ template <class T> struct TileJob {
     const SurfaceTracer* surfaces = nullptr;  ///< nullptr where none can occlude
     std::span<const std::uint8_t> proofs;     ///< [light] LightProof bits; empty: nothing is proved
     Vec3<double> origin{0};                   ///< of the columns
-    LightColumns<T> columns;       ///< for policies that look at the point, and for screening
+    LightColumns<T> columns;       ///< for policies that look at all lights, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
     int bsdf_type = -1;  ///< its number in the registry

@@ -54,7 +54,7 @@ void prepare_tables(const TileJob<T>& job, Batch<T>& batch, std::size_t first, S
         const Vec3<T> n = vec_cast<T>(point.n);
         const ChoicePoint<T> seen{vec_cast<T>(point.x - job.origin), n,
                                   frame_around(n).to_local(vec_cast<T>(point.wo)),
-                                  AnyBsdf{job.bsdf, job.bsdf_type}};
+                                  AnyBsdf{job.bsdf, job.bsdf_type}, job.origin};
         ::new (&batch.tables[p])
             TableOf<Policy, V, T>(policy.template prepare<V>(seen, job.columns, scratch));
     }
@@ -74,7 +74,7 @@ template <class T> void fill_kernels(Kernels<T>& kernels)
     kernels.weigh_alone = weigh_alone<V, T>;
     for_each_type(Policies{}, [&]<class P>() {
         using Table = TableOf<P, V, T>;
-        kernels.policies.push_back({P::name, P::draws_every_light, P::looks_at_point,
+        kernels.policies.push_back({P::name, P::draws_every_light, P::reads_all_lights,
                                     [](std::size_t lights) { return P::table_bytes(lights); },
                                     prepare_tables<V, P, T>, choose_light<P, Table, T>,
                                     price_light<Table, T>, sum_light_draw<Table, T>,

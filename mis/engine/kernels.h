@@ -13,7 +13,7 @@ namespace mis {
 /// The stages that a policy brings.
 template <class T> struct PolicyStages {
     std::string_view name;
-    bool draws_every_light, looks_at_point;
+    bool draws_every_light, reads_all_lights;
     std::size_t (*table_bytes)(std::size_t lights);
     PrepareStage<T> prepare;
     Stage<T> choose;       ///< bits → light, probability

@@ -127,7 +127,7 @@ Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_vi
     const PolicyStages<T>& policy = named(kernels.policies, s.policy);
     pipeline.prepare = policy.prepare;
     pipeline.draws_every_light = policy.draws_every_light;
-    pipeline.looks_at_point = policy.looks_at_point;
+    pipeline.reads_all_lights = policy.reads_all_lights;
     pipeline.table_bytes = policy.table_bytes(effects.lights);
     pipeline.light = light_half(kernels, s, bsdf, effects, light_numbers);
     pipeline.light_draws = s.counts[0];

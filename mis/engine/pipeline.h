@@ -38,7 +38,7 @@ template <class T> struct NamedStage {
 template <class T> struct Pipeline {
     PrepareStage<T> prepare = nullptr;  ///< nullptr where no policy looks at the point
     bool draws_every_light = false;
-    bool looks_at_point = false;
+    bool reads_all_lights = false;
     std::size_t table_bytes = 0;             ///< of one point
     std::vector<NamedStage<T>> light, bsdf;  ///< one draw of each half
     int light_draws = 0,

@@ -49,7 +49,7 @@ Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Til
     TileJob<T> job = strategy.job(tile, {&point, 1});
     const std::size_t lights = scene.scene().lights.size();
     std::vector<T> columns;
-    if (pipeline.looks_at_point || lights <= most_screened_lights)
+    if (pipeline.reads_all_lights || lights <= most_screened_lights)
         job.columns = fill_light_columns(*job.lights, job.origin, columns, job.order);
     const auto batch = std::make_unique<Batch<T>>();
     Scratch scratch(std::max<std::size_t>(pipeline.table_bytes, 1));

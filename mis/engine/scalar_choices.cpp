@@ -85,7 +85,7 @@ ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights)
         if (P::name != name) return;
         const auto policy = std::make_shared<const P>(lights);
         draws_every_light_ = P::draws_every_light;
-        looks_at_point_ = P::looks_at_point;
+        reads_all_lights_ = P::reads_all_lights;
         prepare_ = [policy](const ChoicePoint<double>& point, const LightColumns<double>& columns,
                             Scratch& scratch) {
             const auto table = policy->template prepare<double>(point, columns, scratch);
@@ -101,8 +101,8 @@ const ScalarPolicy::Table& ScalarPolicy::at(const Vec3<double>& x, const Vec3<do
 {
     scratch_.clear();
     const LightColumns<double> columns =
-        looks_at_point_ ? fill_light_columns(*lights_, x, columns_) : LightColumns<double>{};
-    table_ = prepare_({Vec3<double>(0), n, wo, bsdf}, columns, scratch_);
+        reads_all_lights_ ? fill_light_columns(*lights_, x, columns_) : LightColumns<double>{};
+    table_ = prepare_({Vec3<double>(0), n, wo, bsdf, x}, columns, scratch_);
     return table_;
 }
 

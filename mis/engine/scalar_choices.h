@@ -60,7 +60,7 @@ private:
     bool draws_every_light_ = false;
     std::function<Table(const ChoicePoint<double>&, const LightColumns<double>&, Scratch&)>
         prepare_;
-    bool looks_at_point_ = false;
+    bool reads_all_lights_ = false;
     Scratch scratch_;
     std::vector<double> columns_;
     Table table_;

@@ -200,7 +200,7 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     const std::uint64_t start_ticks = ticks();
     if (!scratch_ || scratch_->size() < pipeline.table_bytes)
         scratch_ = std::make_unique<Scratch>(std::max(scratch_bytes, pipeline.table_bytes));
-    if (pipeline.looks_at_point || job.lights->size() <= most_screened_lights)
+    if (pipeline.reads_all_lights || job.lights->size() <= most_screened_lights)
         job.columns = fill_light_columns(*job.lights, job.origin, columns_, job.order);
     batch_->samples = 0;
     batch_->points = 0;
@@ -208,7 +208,7 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     scratch_->clear();
     Run run{job, pipeline, range, results, weights, totals, *batch_, *scratch_, luminance_};
     run.stage_ticks[static_cast<std::size_t>(StageKind::prepare)] =
-        pipeline.looks_at_point ? ticks() - start_ticks : 0;
+        pipeline.reads_all_lights ? ticks() - start_ticks : 0;
     run.all();
 
     TileTotals result;

@@ -11,7 +11,7 @@ public:
     static constexpr std::string_view name = "irradiance";
     static constexpr std::string_view summary =
         "in proportion to radiance x irradiance of the cap above the horizon";
-    static constexpr bool draws_every_light = false, looks_at_point = true;
+    static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {
         return weight_table_bytes(lights);

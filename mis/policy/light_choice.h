@@ -26,10 +26,11 @@ template <class T> struct LightColumns {
 
 /// A shading point as policies see it.
 template <class T> struct ChoicePoint {
-    Vec3<T> x;            ///< relative to the origin of the columns
-    Vec3<T> n;            ///< unit normal
-    Vec3<T> wo{0, 0, 1};  ///< unit, to the viewer, in the shading frame about n
-    AnyBsdf bsdf{};       ///< of the surface; a policy that is not told takes it for Lambertian
+    Vec3<T> x;               ///< relative to the origin of the columns
+    Vec3<T> n;               ///< unit normal
+    Vec3<T> wo{0, 0, 1};     ///< unit, to the viewer, in the shading frame about n
+    AnyBsdf bsdf{};          ///< of the surface; a policy that is not told takes it for Lambertian
+    Vec3<double> origin{0};  ///< what x is relative to; for policies that keep the lights' places
 };
 
 /// Room for the tables of some points; handed out from the front, and all taken back at once.
@@ -79,8 +80,8 @@ concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightInde
 /// prepare<T>() is called once per shading point (T may be a batch: lanes run over the lights); the
 /// point's samples share the table it returns, a small trivially copyable view.
 /// table_bytes(lights): the scratch it takes. draws_every_light: one sample is one draw for every
-/// light (`all`); choose() is not asked. looks_at_point: false where one table serves every point;
-/// prepare() then costs nothing.
+/// light (`all`); choose() is not asked. reads_all_lights: false where prepare() does not look
+/// at the columns, which then need not be there: with one table for every point, or a hierarchy.
 // clang-format off
 template <class P, class T>
 concept LightChoice = std::constructible_from<P, const Lights&> &&
@@ -89,7 +90,7 @@ concept LightChoice = std::constructible_from<P, const Lights&> &&
     { P::name } -> std::convertible_to<std::string_view>;
     { P::summary } -> std::convertible_to<std::string_view>;
     { P::draws_every_light } -> std::convertible_to<bool>;
-    { P::looks_at_point } -> std::convertible_to<bool>;
+    { P::reads_all_lights } -> std::convertible_to<bool>;
     { P::table_bytes(std::size_t{}) } -> std::same_as<std::size_t>;
     { policy.template prepare<T>(point, columns, scratch) } -> ChoiceTable;
 };

@@ -12,7 +12,7 @@ class PowerPolicy {
 public:
     static constexpr std::string_view name = "power";
     static constexpr std::string_view summary = "in proportion to emitted power, blind to distance";
-    static constexpr bool draws_every_light = false, looks_at_point = false;
+    static constexpr bool draws_every_light = false, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
 
     explicit PowerPolicy(const Lights& lights)

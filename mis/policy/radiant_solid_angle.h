@@ -9,7 +9,7 @@ class RadiantSolidAnglePolicy {
 public:
     static constexpr std::string_view name = "radiant-solid-angle";
     static constexpr std::string_view summary = "in proportion to radiance x solid angle";
-    static constexpr bool draws_every_light = false, looks_at_point = true;
+    static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {
         return weight_table_bytes(lights);

@@ -9,7 +9,7 @@ class UniformPolicy {
 public:
     static constexpr std::string_view name = "uniform";
     static constexpr std::string_view summary = "every light alike, 1/M";
-    static constexpr bool draws_every_light = false, looks_at_point = false;
+    static constexpr bool draws_every_light = false, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
 
     explicit UniformPolicy(const Lights& lights) : count_(lights.size()) {}

@@ -62,7 +62,7 @@ template <class P> PolicyView view_of(const Scene& scene, const Probe& probe)
     const ProbeColumns columns(scene.lights, probe.position);
     Scratch scratch(P::table_bytes(count) + 64);
     ChoicePoint<double> point{};
-    point.x = Vec3<double>(0), point.n = probe.normal;
+    point.x = Vec3<double>(0), point.n = probe.normal, point.origin = probe.position;
     point.wo = frame_around(probe.normal).to_local(probe.outgoing);
     const Material& material = scene.materials[static_cast<std::size_t>(probe.material)];
     const std::shared_ptr<const void> bsdf = make_bsdf(material);

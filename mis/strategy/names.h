@@ -19,8 +19,7 @@ const std::vector<Choosable>& technique_names();
 /// Does this policy draw every light for one sample, in place of choosing one?
 bool draws_every_light(std::string_view policy);
 
-/// Does this policy prepare a table for every shading point, in time linear in the number of
-/// lights?
-bool looks_at_point(std::string_view policy);
+/// Does this policy look at all lights at every shading point, in time linear in their number?
+bool reads_all_lights(std::string_view policy);
 
 }  // namespace mis

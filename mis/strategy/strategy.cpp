@@ -105,11 +105,11 @@ bool draws_every_light(std::string_view policy)
     return every;
 }
 
-bool looks_at_point(std::string_view policy)
+bool reads_all_lights(std::string_view policy)
 {
     bool looks = false;
     for_each_type(Policies{},
-                  [&]<class P>() { looks = looks || (P::name == policy && P::looks_at_point); });
+                  [&]<class P>() { looks = looks || (P::name == policy && P::reads_all_lights); });
     return looks;
 }
 

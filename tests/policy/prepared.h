@@ -24,9 +24,10 @@ public:
              const AnyBsdf& bsdf = {})
         : policy_(lights), columns_(fill_light_columns(lights, origin, storage_)),
           scratch_(P::table_bytes(lights.size()) + 64),
-          table_(policy_.template prepare<T>({vec_cast<S>(x - origin), vec_cast<S>(n),
-                                              vec_cast<S>(frame_around(n).to_local(wo)), bsdf},
-                                             columns_, scratch_)),
+          table_(
+              policy_.template prepare<T>({vec_cast<S>(x - origin), vec_cast<S>(n),
+                                           vec_cast<S>(frame_around(n).to_local(wo)), bsdf, origin},
+                                          columns_, scratch_)),
           count_(lights.size())
     {
     }

@@ -1,0 +1,164 @@
+#pragma once
+
+#include "mis/policy/tree_paths.h"
+#include "mis/policy/tree_weights.h"
+
+#include <algorithm>
+
+namespace mis {
+
+/// Draws lights by a hierarchy over them, nearly as `product` would if it could look at them all.
+/// At each point some dozen groups are opened, those whose guessed worth is most in doubt; a draw
+/// goes through them, and then down to one light, which is weighed as `product` does among its
+/// neighbours. docs/theory.md, eqs. 65 to 69.
+class TreePolicy {
+public:
+    static constexpr std::string_view name = "tree";
+    static constexpr std::string_view summary =
+        "nearly as product, by a hierarchy over the lights: O(log M)";
+    static constexpr bool draws_every_light = false, reads_all_lights = false;
+    /// Groups opened at a point: of up to 480 lights all, where `tree` is `product`.
+    static constexpr std::size_t most_open = 32;
+    static constexpr std::size_t table_bytes(std::size_t)
+    {
+        return Scratch::bytes_for<TreePoint<double>>(1) + Scratch::bytes_for<OpenGroup>(most_open);
+    }
+
+    explicit TreePolicy(const Lights& lights) : tree_(std::make_shared<const LightTree>(lights)) {}
+
+    const LightTree& tree() const { return *tree_; }
+
+    template <class T> class Table {
+    public:
+        MIS_INLINE Choice choose(std::uint64_t bits) const { return follow(DrawnPath(bits)); }
+        MIS_INLINE double probability(LightIndex light) const
+        {
+            return follow(KnownPath(tree_->slot_of(light))).probability;
+        }
+
+    private:
+        friend TreePolicy;
+        using Lights = LightTree::LightGroup;
+        using Parts = LightTree::NodeGroup;
+
+        /// Through the open groups, whose weights are known, then on.
+        template <class Path> MIS_INLINE Choice follow(Path path) const
+        {
+            Choice choice{no_light, 0};
+            if (open_ == nullptr || !(open_[0].sums.back() > 0)) return choice;
+            choice.probability = 1;
+            for (const OpenGroup* open = open_;;) {
+                if (open->is_of_lights) {
+                    take_light(path, tree_->lights()[open->group], open->sums, choice);
+                    return choice;
+                }
+                const Parts& parts = tree_->nodes()[open->group];
+                const std::size_t k = path.part(open->sums, parts);
+                choice.probability *= share_of(open->sums, k);
+                if (open->opened[k] == 0) {
+                    if (choice.probability > 0) follow_below(path, parts, k, choice);
+                    return choice;
+                }
+                open = &open_[open->opened[k]];
+            }
+        }
+
+        /// From part k of a group down to a light, weighing what is met.
+        template <class Path>
+        MIS_INLINE void follow_below(Path& path, const Parts& from, std::size_t k,
+                                     Choice& choice) const
+        {
+            visit_reflection<T>(
+                at_->point, [&](const auto& reflection) __attribute__((always_inline)) {
+                    LightRow sums;                     // NOLINT: filled before it is read
+                    LightTree::Row<Scalar<T>> unused;  // NOLINT
+                    const Parts* parts = &from;
+                    while (parts->is_lowest == 0) {
+                        parts = &tree_->nodes()[parts->child[k]];
+                        weigh_parts<T>(reflection, *at_, *parts, sums, unused);
+                        if (!sum_up(sums)) sums = parts->power, sum_up(sums);
+                        k = path.part(sums, *parts);
+                        choice.probability *= share_of(sums, k);
+                        if (!(choice.probability > 0)) return;
+                    }
+                    const Lights& lights = tree_->lights()[parts->child[k]];
+                    weigh_lights<T>(reflection, *at_, lights, sums);
+                    // All of them below the horizon, which was not seen from above: any will do.
+                    if (!sum_up(sums)) sums = lights.luminance_radius, sum_up(sums);
+                    take_light(path, lights, sums, choice);
+                });
+        }
+
+        template <class Path>
+        MIS_INLINE static void take_light(Path& path, const Lights& lights, const LightRow& sums,
+                                          Choice& choice)
+        {
+            const std::size_t k = path.light(sums);
+            choice.probability *= share_of(sums, k);
+            choice.light = lights.light[k];
+        }
+
+        const LightTree* tree_ = nullptr;
+        const TreePoint<Scalar<T>>* at_ = nullptr;
+        const OpenGroup* open_ = nullptr;  ///< the first is the root; nullptr without a light
+    };
+
+    template <class T>
+    Table<T> prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>&,
+                     Scratch& scratch) const
+    {
+        Table<T> table;
+        table.tree_ = tree_.get();
+        if (tree_->lights().empty()) return table;
+        TreePoint<Scalar<T>>& at = scratch.take<TreePoint<Scalar<T>>>(1)[0];
+        const std::span<OpenGroup> open = scratch.take<OpenGroup>(most_open);
+        at = seen_from(point);
+        visit_reflection<T>(
+            point, [&](const auto& reflection)
+                       __attribute__((always_inline)) { open_groups<T>(reflection, at, open); });
+        table.at_ = &at, table.open_ = open.data();
+        return table;
+    }
+
+private:
+    template <class S> MIS_INLINE TreePoint<S> seen_from(const ChoicePoint<S>& point) const
+    {
+        const Vec3<double> x = point.origin + vec_cast<double>(point.x);
+        const Vec3<double> from_middle = x - tree_->middle();
+        TreePoint<S> at{point, x, 1 / (length(from_middle) + tree_->reach())};
+        at.point.x *= static_cast<S>(at.inverse_unit);
+        return at;
+    }
+
+    /// Opens groups from the root on, always the part that is most in doubt; then gives parts that
+    /// were opened the weight that was found within.
+    template <class T, class Reflection>
+    MIS_INLINE void open_groups(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
+                                std::span<OpenGroup> open) const
+    {
+        OpenOrder<Scalar<T>, most_open> order;
+        OpenGroup next{.group = 0, .is_of_lights = false};
+        std::size_t count = 0;
+        do {
+            OpenGroup& group = open[count] = next;
+            if (group.is_of_lights) {
+                weigh_lights<T>(reflection, at, tree_->lights()[group.group], group.sums);
+                order.add_without_doubt();
+            } else {
+                weigh_parts<T>(reflection, at, tree_->nodes()[group.group], group.sums,
+                               order.add());
+            }
+            ++count;
+        } while (count < most_open && order.next(open, *tree_, next));
+        while (--count > 0) {
+            sum_up(open[count].sums);
+            open[order.from(count).group].sums[order.from(count).part] = open[count].sums.back();
+        }
+        sum_up(open[0].sums);
+    }
+
+    std::shared_ptr<const LightTree> tree_;
+};
+static_assert(LightChoice<TreePolicy, float>);
+
+}  // namespace mis

@@ -1,0 +1,212 @@
+// What the choice by a hierarchy says of each light, next to what `product` says.
+#include "mis/policy/tree.h"
+
+#include "mis/bsdf/registry.h"
+#include "mis/policy/product.h"
+
+#include "tests/policy/prepared.h"
+#include "tests/support/lanes.h"
+#include "tests/support/statistics.h"
+#include "tests/support/typed.h"
+#include "tests/support/uniforms.h"
+
+#include <gtest/gtest.h>
+
+namespace mis {
+namespace {
+
+const Vec3<double> x{0.1, -0.2, 0.3}, n = normalized(Vec3<double>{0.2, 1, -0.1});
+const Vec3<double> wo = normalized(n + Vec3<double>{0.5, 0.1, 0.3});
+
+/// Lights all around x, half of them below its horizon, radii and powers over three decades, every
+/// eleventh black. More than can be opened at one point.
+Lights lights_around(int count)
+{
+    Uniforms u(11);
+    Lights lights;
+    for (int j = 0; j < count; ++j) {
+        const Vec3<double> center{u.between(-9, 9), u.between(-9, 9), u.between(-9, 9)};
+        const double radius = std::min(u.log_between(1e-4, 0.1), 0.5 * length(center - x));
+        lights.push_back(make_light_of_power(
+            center, radius, Vec3<double>(j % 11 == 5 ? 0 : u.log_between(1, 1e3))));
+    }
+    return lights;
+}
+
+struct Surface {
+    const char* what;
+    Material material;
+    std::shared_ptr<const void> object;
+    AnyBsdf view;
+    Surface(const char* type, double exponent, double alpha) : what(type)
+    {
+        material.type = type, material.exponent = exponent, material.alpha = alpha;
+        material.diffuse = Vec3<double>(0.1), material.specular = Vec3<double>(0.6);
+        object = make_bsdf(material);
+        view = {object.get(), bsdf_number(material.type)};
+    }
+};
+
+std::vector<Surface> surfaces()
+{
+    return {{"lambert", 0, 0},   {"blinn", 20, 0}, {"blinn", 500, 0},
+            {"lecture", 100, 0}, {"ggx", 0, 0.3},  {"ggx", 0, 0.05}};
+}
+
+template <class P, class T = double>
+Prepared<P, T> table_of(const Lights& lights, const AnyBsdf& bsdf)
+{
+    return {lights, x, n, x, wo, bsdf};
+}
+
+/// Variance of Y/P over its squared mean, where the lights are worth what `product` says.
+double excess(const std::vector<double>& worth, const std::vector<double>& probability)
+{
+    double sum = -1;
+    for (std::size_t j = 0; j < worth.size(); ++j)
+        if (worth[j] > 0) sum += worth[j] * worth[j] / probability[j];
+    return sum;
+}
+
+TEST(TreePolicy, OfSomeHundredLightsIsProduct)
+{
+    const Lights lights = lights_around(400);
+    for (const Surface& s : surfaces()) {
+        const auto found = table_of<TreePolicy>(lights, s.view);
+        const auto exact = table_of<ProductPolicy>(lights, s.view);
+        for (std::size_t j = 0; j < lights.size(); ++j)
+            ASSERT_NEAR(found.probability(j), exact.probability(j),
+                        1e-9 * exact.probability(j) + 1e-15)
+                << s.what << " " << j;
+    }
+}
+
+/// 20 000 lights at which 32 groups are looked into: 0.003 to 0.08 are measured.
+TEST(TreePolicy, OfManyLightsHasLittleMoreVarianceThanProduct)
+{
+    const Lights lights = lights_around(20'000);
+    for (const Surface& s : surfaces()) {
+        const double found = excess(table_of<ProductPolicy>(lights, s.view).probabilities(),
+                                    table_of<TreePolicy>(lights, s.view).probabilities());
+        EXPECT_GT(found, 0) << s.what;
+        EXPECT_LT(found, 0.15) << s.what;
+    }
+}
+
+TEST(TreePolicy, ProbabilitiesOfManyLightsSumTo1)
+{
+    const Lights lights = lights_around(6'000);
+    for (const Surface& s : surfaces()) {
+        EXPECT_NEAR(table_of<TreePolicy>(lights, s.view).sum(), 1, 1e-12) << s.what;
+        EXPECT_NEAR((table_of<TreePolicy, float>(lights, s.view).sum()), 1, 1e-12);
+        EXPECT_NEAR((table_of<TreePolicy, TestLanes<float>>(lights, s.view).sum()), 1, 1e-12);
+        EXPECT_NEAR((table_of<TreePolicy, TestLanes<double>>(lights, s.view).sum()), 1, 1e-12);
+    }
+}
+
+template <class T> void expect_as_many_draws_as_said()
+{
+    const int draws = scaled(100'000);
+    constexpr double false_alarm = 1e-6;  // each
+    const Lights lights = lights_around(6'000);
+    for (const Surface& s : surfaces()) {
+        const auto table = table_of<TreePolicy, T>(lights, s.view);
+        std::vector<double> observed(lights.size()), expected = table.probabilities();
+        for (double& e : expected) e *= draws;
+        for (int i = 0; i < draws; ++i) {
+            const Choice choice = table.choose(random_bits(7, static_cast<std::uint64_t>(i)));
+            ASSERT_GE(choice.light, 0);
+            ASSERT_EQ(choice.probability,
+                      table.probability(static_cast<std::size_t>(choice.light)));
+            ++observed[static_cast<std::size_t>(choice.light)];
+        }
+        EXPECT_GT(chi2_p_value(observed, expected), false_alarm) << s.what;
+    }
+}
+TEST(TreePolicy, DrawsOfManyLightsEachAsOftenAsItSays) { expect_as_many_draws_as_said<double>(); }
+TEST(TreePolicy, DrawsInLanesOfManyLightsEachAsOftenAsItSays)
+{
+    expect_as_many_draws_as_said<TestLanes<float>>();
+}
+
+/// However little of it is above the horizon, and however far below its neighbours are.
+TEST(TreePolicy, ALightThatProductDrawsHasAProbability)
+{
+    Lights lights = lights_around(6'000);
+    for (const double s : {1e-8, 1e-4, 0.1})
+        for (const double share : {1.0, 1e-3, 1e-6})
+            lights.push_back([&] {
+                const double c = share * s - s;
+                const Vec3<double> along = normalized(cross(n, Vec3<double>(1, 0, 0)));
+                return make_light_of_power(x + 5.0 * (along * std::sqrt(1 - c * c) + n * c), 5 * s,
+                                           Vec3<double>(1));
+            }());
+    const auto expect_drawn = [&]<class T>(T) {
+        for (const Surface& s : surfaces()) {
+            const auto found = table_of<TreePolicy, T>(lights, s.view);
+            const auto exact = table_of<ProductPolicy, T>(lights, s.view);
+            int drawn = 0;
+            for (std::size_t j = 0; j < lights.size(); ++j) {
+                if (!(exact.probability(j) > 0)) continue;
+                EXPECT_GT(found.probability(j), 0) << s.what << " " << j;
+                ++drawn;
+            }
+            EXPECT_GT(drawn, 2'500);
+        }
+    };
+    expect_drawn(0.0);
+    expect_drawn(0.F);
+    expect_drawn(TestLanes<float>(0.F));
+}
+
+/// A power of two is no rounding: to the last bit.
+TEST(TreePolicy, OfManyLightsDoesNotDependOnUnits)
+{
+    const Lights lights = lights_around(6'000);
+    const Surface s("ggx", 0, 0.3);
+    const std::vector<double> usual = table_of<TreePolicy>(lights, s.view).probabilities();
+    for (const double scale : {0x1p-30, 0x1p30}) {
+        Lights others = lights;
+        for (Light& l : others)
+            l.center *= scale, l.radius *= scale, l.radiance_radius *= static_cast<float>(scale);
+        const Prepared<TreePolicy> there(others, x * scale, n, x * scale, wo, s.view);
+        EXPECT_EQ(there.probabilities(), usual) << scale;
+    }
+}
+
+TEST(TreePolicy, TakesAtMost64BytesPerLight)
+{
+    for (const int count : {1'000, 4'097, 70'000}) {
+        const TreePolicy policy(lights_around(count));
+        EXPECT_LE(policy.tree().bytes(), static_cast<std::size_t>(64 * count)) << count;
+        EXPECT_GE(policy.tree().bytes(), static_cast<std::size_t>(40 * count)) << count;
+    }
+}
+
+/// All at one place, so that no cut parts them. Groups that are not opened are guessed.
+TEST(TreePolicy, LightsAtOnePlaceAreDrawnAlike)
+{
+    const Lights lights(1'000, make_light({0, 3, 0}, 0.1, Vec3<double>(1)));
+    const auto table = table_of<TreePolicy>(lights, {});
+    for (std::size_t j = 0; j < lights.size(); ++j)
+        ASSERT_NEAR(table.probability(j), 1e-3, 2e-6) << j;
+}
+
+/// A sun amid many lamps: its group reaches to the sky, and its lamps are lamps all the same.
+TEST(TreePolicy, ASunAmidLampsIsDrawnAboutAsProductDrawsIt)
+{
+    Lights lights = lights_around(6'000);
+    lights.push_back(make_light(n * 1.5e11, 7e8, Vec3<double>(10)));
+    const auto check = [&]<class T>(T) {
+        const auto found = table_of<TreePolicy, T>(lights, {});
+        const auto exact = table_of<ProductPolicy, T>(lights, {});
+        EXPECT_GT(exact.probability(6'000), 1e-7);
+        EXPECT_NEAR(found.probability(6'000) / exact.probability(6'000), 1, 0.5);
+        EXPECT_LT(excess(exact.probabilities(), found.probabilities()), 0.15);
+    };
+    check(0.0);
+    check(TestLanes<float>(0.F));
+}
+
+}  // namespace
+}  // namespace mis
