@@ -31,6 +31,15 @@ run("${work}/installed/stranger")
 run("${CMAKE_COMMAND}" --build "${work}/installed" --target host_in_c)
 run("${work}/installed/host_in_c")
 
+# A renderer of its own, before and after it gained mis (tests/host compares its pictures).
+run("${CMAKE_COMMAND}" -S "${source}/host" -B "${work}/host" -G "${generator}" "-DCMAKE_BUILD_TYPE=${build_type}"
+  "-DCMAKE_CXX_COMPILER=${compiler}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${launcher}" "-DCMAKE_CXX_FLAGS=${flags}"
+  "-DCMAKE_PREFIX_PATH=${work}/prefix")
+run("${CMAKE_COMMAND}" --build "${work}/host")
+foreach(host before after)
+  run("${work}/host/host_${host}" "${source}/host/room.scene" "${work}/${host}.pfm" 4)
+endforeach()
+
 find_program(pkg_config pkg-config)
 if(pkg_config)
   set(ENV{PKG_CONFIG_PATH} "${work}/prefix/${libdir}/pkgconfig")
