@@ -1,7 +1,7 @@
 #pragma once
 
 #include <mis/mis.h>
-#include "one_light.h"
+#include "../one_light.h"
 
 namespace host {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "one_light.h"
+#include "../one_light.h"
 
 namespace host {
 
