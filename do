@@ -10,7 +10,7 @@ usage() {
 ./do bench …       builds and runs the benchmarks; … goes to each of them (--benchmark_filter=NAME)
 ./do fuzz SECONDS  lets libFuzzer loose on each reader of files for so long (600)
 ./do format        formats the sources; ./do format --check only says what it would change
-./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci)
+./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci, python)
 ./do clean         removes all that was built
 END
 }
@@ -25,7 +25,7 @@ need_packages() {
     while read -r group name _; do
         [[ " $* " == *" $group "* ]] && wanted+=("$name")
     done < <(grep -v '^ *#' "$root/packages.txt")
-    ((${#wanted[@]})) || fail "packages.txt has no such group; there are build, format, ci"
+    ((${#wanted[@]})) || fail "packages.txt has no such group; there are build, format, ci, python"
     installed=" $(dpkg-query -W -f '${db:Status-Status}:${Package} ' "${wanted[@]}" 2>/dev/null || true)"
     for name in "${wanted[@]}"; do
         [[ $installed == *" installed:$name "* ]] || missing+=("$name")
