@@ -9,8 +9,9 @@ usage() {
 ./do test …        builds and runs the tests; … goes to ctest (-R NAME, -V)
 ./do bench …       builds and runs the benchmarks; … goes to each of them (--benchmark_filter=NAME)
 ./do fuzz SECONDS  lets libFuzzer loose on each reader of files for so long (600)
+./do docs          what is public as HTML, in build/docs/html
 ./do format        formats the sources; ./do format --check only says what it would change
-./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci, python)
+./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci, python, docs)
 ./do clean         removes all that was built
 END
 }
@@ -25,7 +26,7 @@ need_packages() {
     while read -r group name _; do
         [[ " $* " == *" $group "* ]] && wanted+=("$name")
     done < <(grep -v '^ *#' "$root/packages.txt")
-    ((${#wanted[@]})) || fail "packages.txt has no such group; there are build, format, ci, python"
+    ((${#wanted[@]})) || fail "packages.txt has no such group; there are build, format, ci, python, docs"
     installed=" $(dpkg-query -W -f '${db:Status-Status}:${Package} ' "${wanted[@]}" 2>/dev/null || true)"
     for name in "${wanted[@]}"; do
         [[ $installed == *" installed:$name "* ]] || missing+=("$name")
@@ -139,6 +140,12 @@ case ${1-} in
             --check) sources | xargs -0 -r clang-format --dry-run -Werror ;;
             *) fail "format knows --check, not $2" ;;
         esac
+        ;;
+    docs)
+        need_packages docs
+        mkdir -p "$root/build/docs"
+        (cd "$root" && doxygen docs/Doxyfile >&2) || fail "the docstrings have faults"
+        echo "$root/build/docs/html/index.html"
         ;;
     setup) need_packages "${@:2}" ;;
     clean) rm -rf -- "$root/build" ;;

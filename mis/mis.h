@@ -15,3 +15,8 @@
 #include "mis/scene/validate.h"
 #include "mis/strategy/strategy.h"
 #include "mis/technique/registry.h"
+
+/// Direct lighting from many spheres, and which of them to draw. What is public, and for how long,
+/// stands at the end of docs/embedding.md.
+namespace mis {
+}

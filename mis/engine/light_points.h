@@ -24,6 +24,7 @@ struct PointArrays {
     std::span<const std::int32_t> material;             ///< index into Scene::materials
     std::span<const std::uint32_t> id;  ///< of their random numbers: points with one id share them
 
+    /// How many points.
     std::size_t size() const { return id.size(); }
 };
 

@@ -21,10 +21,15 @@ public:
     /// surfaces: nullptr where the scene has none.
     LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects);
 
+    /// What it was made of.
     const Scene& scene() const { return *scene_; }
+    /// What is simulated.
     const Effects& effects() const { return effects_; }
+    /// Which light does a ray meet?
     const LightHierarchy& lights() const { return hierarchy_; }
+    /// Who answers shadow rays; nullptr where there are no surfaces.
     const SurfaceTracer* surfaces() const { return surfaces_; }
+    /// A view of a material's BSDF.
     AnyBsdf bsdf(int material) const
     {
         const auto i = static_cast<std::size_t>(material);
@@ -42,15 +47,19 @@ private:
 /// One strategy made ready on a scene: its policy's tables, and a pipeline per material.
 template <class T> class ReadyStrategy {
 public:
+    /// strategy: checked (strategy/strategy.h). kernels: kernels<T>(). Keeps references to scene
+    /// and kernels.
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
                   NumberSource numbers);
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
+    /// The stages for points of a material.
     const Pipeline<T>& pipeline(int material) const
     {
         return pipelines_[static_cast<std::size_t>(material)];
     }
+    /// What it was made of.
     const Strategy& strategy() const { return strategy_; }
 
 private:

@@ -21,6 +21,7 @@ void occluded_in(RTCSceneTy* scene, std::span<const ShadowRay> rays,
 /// computed again in double. Throws std::runtime_error where Embree fails (no memory).
 class EmbreeTracer final : public SurfaceTracer {
 public:
+    /// Builds the trees. Keeps a reference to the scene.
     explicit EmbreeTracer(const Scene& scene);
     ~EmbreeTracer() override;
 
