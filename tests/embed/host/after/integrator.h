@@ -23,7 +23,8 @@ public:
     {
         mis::Lights lights;
         for (const Light& l : scene.lights)
-            lights.push_back(mis::make_light(to_mis(l.center), l.radius, to_mis(l.radiance)));
+            lights.push_back(
+                mis::make_light(to_mis(l.center), double(l.radius), to_mis(l.radiance)));
         lights_.assign(lights);
     }
 
