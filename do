@@ -9,8 +9,9 @@ usage() {
 ./do test …        builds and runs the tests; … goes to ctest (-R NAME, -V)
 ./do bench …       measures every bar of docs/performance.md; --quick, --out FILE, --benchmark_filter=REGEX, …
 ./do fuzz SECONDS  lets libFuzzer loose on each reader of files for so long (600)
+./do docs          what is public as HTML, in build/docs/html
 ./do format        formats the sources; ./do format --check only says what it would change
-./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci)
+./do setup GROUP…  installs packages of packages.txt and no more (build, format, ci, python, docs)
 ./do clean         removes all that was built
 END
 }
@@ -25,7 +26,7 @@ need_packages() {
     while read -r group name _; do
         [[ " $* " == *" $group "* ]] && wanted+=("$name")
     done < <(grep -v '^ *#' "$root/packages.txt")
-    ((${#wanted[@]})) || fail "packages.txt has no such group; there are build, format, ci"
+    ((${#wanted[@]})) || fail "packages.txt has no such group; there are build, format, ci, python, docs"
     installed=" $(dpkg-query -W -f '${db:Status-Status}:${Package} ' "${wanted[@]}" 2>/dev/null || true)"
     for name in "${wanted[@]}"; do
         [[ $installed == *" installed:$name "* ]] || missing+=("$name")
@@ -136,6 +137,12 @@ case ${1-} in
             --check) sources | xargs -0 -r clang-format --dry-run -Werror ;;
             *) fail "format knows --check, not $2" ;;
         esac
+        ;;
+    docs)
+        need_packages docs
+        mkdir -p "$root/build/docs"
+        (cd "$root" && doxygen docs/Doxyfile >&2) || fail "the docstrings have faults"
+        echo "$root/build/docs/html/index.html"
         ;;
     setup) need_packages "${@:2}" ;;
     clean) rm -rf -- "$root/build" ;;

@@ -39,3 +39,19 @@ endif()
 if(MIS_BENCH)
   find_package(benchmark REQUIRED)
 endif()
+
+# The Python module, where Python's headers, NumPy and pybind11 are there. Debian's Python before any other: pybind11 and
+# NumPy are its packages.
+if(MIS_PYTHON AND CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  set(MIS_PYTHON OFF)  # a sanitizer's runtime is not Python's
+elseif(MIS_PYTHON)
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  find_package(Python 3.9 COMPONENTS Interpreter Development.Module NumPy QUIET)
+  find_package(pybind11 2.9 CONFIG QUIET)
+  if(NOT Python_FOUND OR NOT pybind11_FOUND)
+    message(STATUS "no Python module: it needs pybind11, Python's headers and NumPy (packages.txt)")
+    set(MIS_PYTHON OFF)
+  endif()
+endif()

@@ -34,6 +34,7 @@ function(mis_add_kernels target)
     if(ARGN)
       add_library(mis_kernels_${isa} OBJECT ${ARGN})
       target_link_libraries(mis_kernels_${isa} PRIVATE mis_headers)
+      set_target_properties(mis_kernels_${isa} PROPERTIES POSITION_INDEPENDENT_CODE ON)  # for the Python module
       # xsimd's own scalar helpers carry no name of the instruction set that they are compiled for: they get one.
       target_compile_definitions(mis_kernels_${isa} PRIVATE MIS_ISA=${isa}
         __ieee754_rem_pio2=__ieee754_rem_pio2_${isa} __kernel_rem_pio2=__kernel_rem_pio2_${isa})

@@ -15,7 +15,7 @@ namespace mis {
 /// registry. A view; kernels visit it without a virtual call.
 struct AnyBsdf {
     const void* object = nullptr;  ///< nullptr: nothing is known of the surface
-    int type = -1;
+    int type = -1;                 ///< bsdf_number() of its name
 
     /// f(bsdf), with the type that it has; nothing where there is none.
     template <class F> MIS_INLINE void visit(F&& f) const

@@ -14,8 +14,11 @@ public:
         : bsdf_(&bsdf), frame_(frame_around(n)), wo_(frame_.to_local(wo))
     {
     }
+    /// f, sr⁻¹, RGB, without the cosine.
     Vec3<T> evaluate(const Vec3<T>& wi) const { return value(wi).f; }
+    /// Density of sample(), per steradian.
     T pdf(const Vec3<T>& wi) const { return value(wi).pdf; }
+    /// From numbers in [0, 1); below the horizon it is a lost draw.
     Vec3<T> sample(const T& lobe, const Vec2<T>& u) const
     {
         return frame_.to_world(bsdf_->sample(wo_, lobe, u));

@@ -8,10 +8,12 @@ namespace mis {
 
 /// All that lies between the points of a tile and a light: the convex hull of a box and a ball.
 struct Shaft {
-    Vec3<double> low, high;  ///< corners of the box
-    Vec3<double> center;     ///< of the ball
-    double radius;
+    Vec3<double> low;     ///< least corner of the box
+    Vec3<double> high;    ///< greatest corner of the box
+    Vec3<double> center;  ///< of the ball
+    double radius;        ///< of the ball
 
+    /// Of the box.
     Vec3<double> middle() const { return 0.5 * (low + high); }
     /// Half the diagonal of the box.
     double box_radius() const { return 0.5 * length(high - low); }

@@ -19,8 +19,9 @@ enum LightProof : std::uint8_t {
 
 /// What one tile calls for. Plain data.
 struct TilePlan {
-    bool shadows = true, light_occlusion = true;  ///< for any light that is not below
-    std::vector<std::uint8_t> lights;             ///< [light]: its proofs; empty: none
+    bool shadows = true;               ///< of any light that is not below
+    bool light_occlusion = true;       ///< of any light that is not below
+    std::vector<std::uint8_t> lights;  ///< [light]: its proofs; empty: none
 };
 
 /// Finds the plans of a scene's tiles: what surfaces and lights provably do not stand between the
@@ -31,6 +32,7 @@ public:
     /// frame: SurfaceTracer::origin(); scene: kept by reference.
     TilePlanner(const Scene& scene, const Effects& effects, const Vec3<double>& frame);
 
+    /// What a tile of these points calls for. points: at least one.
     TilePlan plan(std::span<const ShadingPoint> points) const;
 
 private:

@@ -39,15 +39,16 @@ concept Occluder = requires(const O& is_occluded, const Vec3<T>& wi, const T& di
 /// The random numbers of one light draw and one BSDF draw. All but `choice` are in [0, 1).
 template <class T> struct DirectNumbers {
     std::uint64_t choice = 0;  ///< 64 random bits: a float would starve lights where there are many
-    Vec2<T> cap{0};
-    T lobe = 0;
-    Vec2<T> bsdf{0};
+    Vec2<T> cap{0};            ///< where in the light's cap
+    T lobe = 0;                ///< which lobe of the BSDF
+    Vec2<T> bsdf{0};           ///< where in the lobe
 };
 
 /// How many draws of each technique a sample has, or, in the one-sample model, their
 /// probabilities.
 template <class T> struct DirectCounts {
-    T light = 1, bsdf = 1;
+    T light = 1;  ///< draws towards lights
+    T bsdf = 1;   ///< draws of the BSDF
 };
 
 /// One draw, and all that a host's own loop may want of it.
@@ -64,9 +65,10 @@ template <class T> struct DirectDraw {
 /// The estimate of one sample. invalid: draws that were not finite (a BSDF that says NaN); they
 /// count as 0.
 template <class T> struct DirectSample {
-    Vec3<T> radiance{0};
-    int invalid = 0;
+    Vec3<T> radiance{0};  ///< RGB, W·sr⁻¹·m⁻²
+    int invalid = 0;      ///< draws
 
+    /// Adds a draw, or counts it as invalid.
     void add(const DirectDraw<T>& draw)
     {
         const Vec3<T>& r = draw.radiance;
@@ -77,8 +79,8 @@ template <class T> struct DirectSample {
 
 /// All lights along a direction: the nearest, and the union's density.
 struct LightsAlong {
-    LightHit nearest;
-    double pdf = 0;  ///< Σ P_k/Ω_k, per steradian
+    LightHit nearest;  ///< the one that is seen
+    double pdf = 0;    ///< Σ P_k/Ω_k, per steradian
 };
 
 /// own: a light that the direction was drawn towards and therefore meets, or no_light.

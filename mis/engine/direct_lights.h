@@ -22,6 +22,7 @@ namespace mis {
 /// T: float or double, the number type of directions, densities and radiance.
 template <class Policy, class T = float> class DirectLights {
 public:
+    /// Makes them ready: O(M log M).
     explicit DirectLights(Lights lights)
         : lights_(std::move(lights)), hierarchy_(lights_), policy_(lights_)
     {
@@ -30,9 +31,13 @@ public:
     DirectLights(const DirectLights&) = delete;  // the hierarchy refers to the lights
     DirectLights& operator=(const DirectLights&) = delete;
 
+    /// As they were given.
     const Lights& lights() const { return lights_; }
+    /// Which light does a ray meet?
     const LightHierarchy& hierarchy() const { return hierarchy_; }
+    /// Which light to draw towards?
     const Policy& policy() const { return policy_; }
+    /// The lights as policies read them, relative to origin().
     const LightColumns<T>& columns() const { return columns_; }
     /// What the columns are relative to: amid the lights, so that one far away moves it little.
     const Vec3<double>& origin() const { return origin_; }
@@ -120,9 +125,13 @@ public:
                 lights_->columns(), scratch_));
     }
 
+    /// What it was made among.
     const DirectLights<Policy, T>& lights() const { return *lights_; }
+    /// Its position, scene units.
     const Vec3<double>& x() const { return x_; }
+    /// Its unit normal.
     const Vec3<T>& n() const { return n_; }
+    /// Can any light reach it? See move_to().
     bool is_lit() const { return is_lit_; }
 
     /// A light drawn by 64 random bits, and its probability; no_light and 0 where none can

@@ -22,15 +22,20 @@ public:
     /// surfaces: nullptr where the scene has none.
     LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects);
 
+    /// What it was made of.
     const Scene& scene() const { return *scene_; }
+    /// What is simulated.
     const Effects& effects() const { return effects_; }
+    /// Which light does a ray meet?
     const LightHierarchy& lights() const { return hierarchy_; }
+    /// Who answers shadow rays; nullptr where there are no surfaces.
     const SurfaceTracer* surfaces() const { return surfaces_; }
     /// Finds out what each tile calls for, where that is asked for.
     void plan(GBuffer& buffer, const AnyExecutor& executor) const
     {
         if (effects_.by_tile) plan_tiles(buffer, planner_, executor);
     }
+    /// A view of a material's BSDF.
     AnyBsdf bsdf(int material) const
     {
         const auto i = static_cast<std::size_t>(material);
@@ -50,16 +55,21 @@ private:
 /// all that the scene calls for down to what the leanest tile does.
 template <class T> class ReadyStrategy {
 public:
+    /// strategy: checked (strategy/strategy.h). kernels: kernels<T>(). Keeps references to scene
+    /// and kernels.
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
                   NumberSource numbers);
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
+    /// The stages for points of a material, whatever their tile calls for.
     const Pipeline<T>& pipeline(int material) const { return pipeline(material, TilePlan{}); }
+    /// The stages for the points of a tile.
     const Pipeline<T>& pipeline(const Tile& tile) const
     {
         return pipeline(tile.material, tile.plan);
     }
+    /// What it was made of.
     const Strategy& strategy() const { return strategy_; }
 
 private:

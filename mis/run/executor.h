@@ -20,10 +20,12 @@ concept Executor = requires(const E& executor, std::size_t n,
 
 /// Any executor, as a value that compiled code takes.
 struct AnyExecutor {
-    int threads = 1;
+    int threads = 1;  ///< how many run
+    /// Executor::for_each.
     std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)> for_each;
 };
 
+/// An executor as such a value.
 template <Executor E> AnyExecutor any_executor(E executor)
 {
     return {executor.threads(),

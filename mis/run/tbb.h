@@ -10,8 +10,11 @@ namespace mis {
 /// has.
 class TbbExecutor {
 public:
+    /// Makes the arena.
     explicit TbbExecutor(int threads = 0);
+    /// How many run.
     int threads() const;
+    /// Executor::for_each.
     void for_each(std::size_t n, const std::function<void(std::size_t)>& body) const;
 
 private:

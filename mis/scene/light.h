@@ -10,6 +10,7 @@ namespace mis {
 
 /// Number of a light in its scene; no_light where there is none.
 using LightIndex = std::int32_t;
+/// No light's number.
 inline constexpr LightIndex no_light = -1;
 
 /// A spherical light: constant radiance, outwards only. One packed record, since a draw needs all

@@ -10,21 +10,23 @@ namespace mis {
 /// One broken rule of a scene, as scene/validate finds it; it knows no file.
 struct Problem {
     std::string pointer;  ///< JSON pointer, RFC 6901
-    std::string found, allowed, remedy;
+    std::string found;    ///< in words
+    std::string allowed;  ///< in words
+    std::string remedy;   ///< what to do
 };
 
 /// Limits of what one scene may hold; going past one is a Problem too. docs/scene-format.md states
 /// them all.
 namespace limits {
-inline constexpr std::size_t lights = 10'000'000;
-inline constexpr std::size_t triangles = 50'000'000;
-inline constexpr int resolution = 16'384;
+inline constexpr std::size_t lights = 10'000'000;     ///< of a scene
+inline constexpr std::size_t triangles = 50'000'000;  ///< of a scene
+inline constexpr int resolution = 16'384;             ///< pixels, of either side
 inline constexpr std::size_t scene_file_bytes = std::size_t{1}
                                                 << 30;  ///< of a table of lights, too
 inline constexpr int nesting = 64;                      ///< of brackets and braces in a scene file
-inline constexpr double length = 1e15;  ///< of a coordinate or a radius, scene units
-inline constexpr double min_radius = 1e-30;
-inline constexpr double max_radiance_radius = 1e37;
+inline constexpr double length = 1e15;               ///< of a coordinate or a radius, scene units
+inline constexpr double min_radius = 1e-30;          ///< of a light, scene units
+inline constexpr double max_radiance_radius = 1e37;  ///< of a channel
 inline constexpr double min_radiance_radius =
     1e-37;  ///< of a channel that is not black: a float holds it in full
 inline constexpr double material_number = 1e9;  ///< of kd, ks and exponents

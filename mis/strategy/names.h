@@ -8,12 +8,15 @@ namespace mis {
 
 /// A registered choice, as help texts and messages show it.
 struct Choosable {
-    std::string name, summary;
+    std::string name;     ///< "power", …
+    std::string summary;  ///< half a sentence
 };
 
-/// What the registries list, in their order.
+/// What the registry of policies lists, in its order.
 const std::vector<Choosable>& policy_names();
+/// Those of the heuristics.
 const std::vector<Choosable>& heuristic_names();
+/// Those of the techniques.
 const std::vector<Choosable>& technique_names();
 
 /// Does this policy draw every light for one sample, in place of choosing one?

@@ -16,15 +16,17 @@ enum class Model { multi, one_sample };
 /// strategy's name). A strategy that chooses no light ("brdf", "cosine", "hemisphere") has an empty
 /// policy and heuristic.
 struct Strategy {
-    std::string policy;
+    std::string policy;     ///< of the registry
     std::string heuristic;  ///< "light" for a light draw alone
     std::string technique =
         "cone";  ///< of the light draw; or the whole strategy where no light is chosen
-    Model model = Model::multi;
+    Model model = Model::multi;  ///< §9.2.1 or §9.2.4
     std::array<int, 2> counts{
         1, 1};  ///< light draws (for each light, with `all`) and BSDF draws per sample
 
+    /// Does it draw towards lights at all?
     bool chooses_light() const { return !policy.empty(); }
+    /// Are all members equal?
     bool operator==(const Strategy&) const = default;
 };
 

@@ -10,6 +10,7 @@ namespace mis {
 /// triangles.
 class AnalyticTracer final : public SurfaceTracer {
 public:
+    /// Keeps a reference to the scene.
     explicit AnalyticTracer(const Scene& scene);
 
     void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const override;

@@ -266,6 +266,11 @@ struct EmbreeTracer::Trees {
     std::vector<std::vector<std::size_t>> surfaces_of;  ///< [geometry]
 };
 
+void occluded_in(RTCSceneTy* scene, std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden)
+{
+    answer_in_packets<RTCRay8, 8>(scene, rays, hidden);
+}
+
 EmbreeTracer::EmbreeTracer(const Scene& scene) : trees_(std::make_unique<Trees>(scene)) {}
 EmbreeTracer::~EmbreeTracer() = default;
 

@@ -5,7 +5,15 @@
 
 #include <memory>
 
+struct RTCSceneTy;  // what Embree's RTCScene points to
+
 namespace mis {
+
+/// Shadow rays against a host's own Embree scene, committed, of the Embree that mis is built with:
+/// hidden[i] = 1 where a surface stands on ray i before its distance, else 0. The rays are in the
+/// scene's coordinates: HostTracer's origin (engine/light_points.h) is 0 then.
+void occluded_in(RTCSceneTy* scene, std::span<const ShadowRay> rays,
+                 std::span<std::uint8_t> hidden);
 
 /// The surfaces of a scene in Embree's trees (3.13 or 4); lights are not among them. Owns device
 /// and scene; keeps a reference to the scene. Triangles and quads are intersected by Embree in
@@ -13,6 +21,7 @@ namespace mis {
 /// computed again in double. Throws std::runtime_error where Embree fails (no memory).
 class EmbreeTracer final : public SurfaceTracer {
 public:
+    /// Builds the trees. Keeps a reference to the scene.
     explicit EmbreeTracer(const Scene& scene);
     ~EmbreeTracer() override;
 

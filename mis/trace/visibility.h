@@ -11,7 +11,7 @@ namespace mis {
 
 /// Is anything between `origin` and `distance` along `direction`? In the tracer's frame, in float.
 struct ShadowRay {
-    Vec3<float> origin;
+    Vec3<float> origin;     ///< off its own surface
     Vec3<float> direction;  ///< unit
     float distance;         ///< scene units; infinity is allowed
 };
@@ -24,7 +24,7 @@ struct SurfaceHit {
     double distance;         ///< along the ray
     double offset;  ///< how far a ray that starts at x must be moved off this surface to miss it;
                     ///< scene units
-    int material;
+    int material;   ///< index into Scene::materials
 };
 
 /// What surfaces do to rays; an embedder may bring his own. Lights are no surfaces: trace/lights.h.
