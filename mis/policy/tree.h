@@ -4,6 +4,7 @@
 #include "mis/policy/tree_weights.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mis {
 
@@ -125,7 +126,8 @@ private:
     {
         const Vec3<double> x = point.origin + vec_cast<double>(point.x);
         const Vec3<double> from_middle = x - tree_->middle();
-        TreePoint<S> at{point, x, 1 / (length(from_middle) + tree_->reach())};
+        // A power of two: it changes no digit, wherever the scene stands.
+        TreePoint<S> at{point, x, std::exp2(-std::ilogb(length(from_middle) + tree_->reach()))};
         at.point.x *= static_cast<S>(at.inverse_unit);
         return at;
     }
