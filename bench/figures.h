@@ -74,7 +74,7 @@ private:
 
 /// One thing that must hold, as it was measured.
 struct Bar {
-    int number;  ///< 1 to 7: docs/performance.md
+    int number;  ///< 1 to 8: docs/performance.md
     std::string what;
     Middle value;
     enum class Sense { at_most, at_least, report } sense;

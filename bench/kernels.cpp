@@ -35,8 +35,8 @@ std::string_view judged_set()
 
 void add_kernels()
 {
-    const LazyReady blinn = ready_lazily([] { return shipped_scene("veach-blinn"); }, false);
-    const LazyReady ggx = ready_lazily([] { return shipped_scene("veach"); }, false);
+    const LazyReady blinn = ready_lazily([] { return shipped_scene("veach-blinn"); }, Effect::none);
+    const LazyReady ggx = ready_lazily([] { return shipped_scene("veach"); }, Effect::none);
     for (const std::string_view isa : instruction_sets())
         for (const std::string& bsdf : bsdfs) {
             const LazyReady ready = bsdf == "ggx" ? ggx : blinn;

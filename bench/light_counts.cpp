@@ -25,7 +25,7 @@ std::size_t points_for(bool is_linear, std::size_t lights)
 
 bool is_linear(const PolicyStages<float>& policy)
 {
-    return policy.looks_at_point && policy.table_bytes(1000) > 1000;
+    return policy.reads_all_lights && policy.table_bytes(1000) > 1000;
 }
 
 }  // namespace

@@ -89,8 +89,8 @@ bool start_benchmark(const std::string& program, const Options& options)
 Bars all_bars(const Figures& figures)
 {
     Bars bars;
-    for (const auto& subject :
-         {kernel_bars, ray_bars, counter_bars, thread_bars, light_count_bars, memory_bars})
+    for (const auto& subject : {kernel_bars, ray_bars, counter_bars, thread_bars, light_count_bars,
+                                memory_bars, effect_bars})
         for (Bar& bar : subject(figures)) bars.push_back(std::move(bar));
     std::stable_sort(bars.begin(), bars.end(),
                      [](const Bar& a, const Bar& b) { return a.number < b.number; });
@@ -107,6 +107,7 @@ int run(std::span<char*> arguments)
     add_threads();
     add_light_counts();
     add_memory();
+    add_effects();
     add_scenes();
     std::optional<AtomicFile> out;  // opened first: minutes must not be lost to a wrong path
     if (!options.out.empty()) out.emplace(options.out);

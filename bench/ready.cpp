@@ -9,20 +9,22 @@
 namespace mis::bench {
 
 namespace {
-Effects effects_of(const Scene& scene, bool with_rays)
+Effects effects_of(const Scene& scene, Effect effect)
 {
-    Effects effects = called_for(scene);
-    if (!with_rays) effects.shadows = effects.light_occlusion = false;
+    if (effect == Effect::called_for) return called_for(scene);
+    Effects effects = all_effects(scene);
+    if (effect == Effect::none) effects.shadows = effects.light_occlusion = false;
     return effects;
 }
 }  // namespace
 
-Ready::Ready(Scene made, bool with_rays)
+Ready::Ready(Scene made, Effect effect)
     : scene(std::move(made)), tracer(std::make_unique<EmbreeTracer>(scene)),
-      lit(scene, tracer.get(), effects_of(scene, with_rays)),
+      lit(scene, tracer.get(), effects_of(scene, effect)),
       shading(find_shading_points(scene, lit.lights(), tracer.get(), 0, scene.camera->resolution[1],
                                   any_executor(SerialExecutor{})))
 {
+    lit.plan(shading, any_executor(SerialExecutor{}));
 }
 
 std::vector<const Tile*> Ready::tiles_of(int material) const
@@ -43,9 +45,9 @@ Scene shipped_scene(const std::string& name)
     return read_scene(source_path("scenes/" + name + ".json"));
 }
 
-LazyReady ready_lazily(std::function<Scene()> scene, bool with_rays)
+LazyReady ready_lazily(std::function<Scene()> scene, Effect effect)
 {
-    return lazily<Ready>([=] { return new Ready(scene(), with_rays); });
+    return lazily<Ready>([=] { return new Ready(scene(), effect); });
 }
 
 template <class T>
@@ -62,7 +64,7 @@ void run_tiles(benchmark::State& state, const Ready& ready, const std::string& s
         const auto all = ready.points_of(tile);
         const auto points = all.first(std::min(part.points, all.size()));
         std::vector<PointResult> results(points.size());
-        totals.add(workspace.run(prepared.job(tile, points), prepared.pipeline(tile.material),
+        totals.add(workspace.run(prepared.job(tile, points), prepared.pipeline(tile),
                                  {.first = 0, .chunk = samples_per_point, .chunks = 1}, results, {},
                                  {}));
     }

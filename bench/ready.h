@@ -10,10 +10,12 @@
 
 namespace mis::bench {
 
+/// What is simulated: what each tile calls for, everything, or no occlusion at all.
+enum class Effect { called_for, everything, none };
+
 /// A scene made ready, and the shading points of its picture.
 struct Ready {
-    /// with_rays: false leaves out every occlusion.
-    Ready(Scene made, bool with_rays);
+    Ready(Scene made, Effect effect);
 
     std::vector<const Tile*> tiles_of(int material) const;  ///< −1: all
     std::span<const ShadingPoint> points_of(const Tile& tile) const
@@ -40,7 +42,7 @@ template <class Value> std::function<const Value&()> lazily(std::function<Value*
     };
 }
 using LazyReady = std::function<const Ready&()>;
-LazyReady ready_lazily(std::function<Scene()> scene, bool with_rays = true);
+LazyReady ready_lazily(std::function<Scene()> scene, Effect effect = Effect::called_for);
 
 /// Samples per shading point: what is prepared once is shared by so many.
 inline constexpr int samples_per_point = 16;

@@ -10,9 +10,9 @@ Recording::Recording(const Ready& ready, const std::string& strategy)
     Workspace<float> workspace;
     for (const Tile& tile : ready.shading.tiles) {
         std::vector<PointResult> results(tile.count);
-        const TileTotals totals = workspace.run(
-            prepared.job(tile, ready.points_of(tile)), prepared.pipeline(tile.material),
-            {.first = 0, .chunk = samples_per_point, .chunks = 1}, results, {}, {});
+        const TileTotals totals =
+            workspace.run(prepared.job(tile, ready.points_of(tile)), prepared.pipeline(tile),
+                          {.first = 0, .chunk = samples_per_point, .chunks = 1}, results, {}, {});
         samples += totals.samples;
     }
     rays = tracer.rays();

@@ -28,6 +28,9 @@ Bars light_count_bars(const Figures& figures);
 void add_memory();
 Bars memory_bars(const Figures& figures);
 
+void add_effects();
+Bars effect_bars(const Figures& figures);
+
 void add_scenes();
 
 }  // namespace mis::bench
