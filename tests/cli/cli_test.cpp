@@ -400,7 +400,8 @@ TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
 std::string figures_of(const std::string& report)
 {
     std::string figures;
-    for (const auto& strategy : nlohmann::json::parse(report).at("scenes").at(0).at("strategies"))
+    const auto json = nlohmann::json::parse(report);
+    for (const auto& strategy : json.at("scenes").at(0).at("strategies"))
         figures += strategy.at("name").dump() + strategy.at("mean").dump() +
                    strategy.at("variance").dump() + strategy.at("invalid_samples").dump() + "\n";
     return figures;
