@@ -1,7 +1,6 @@
 #include "mis/compare/explain.h"
 
 #include "mis/compare/savings.h"
-
 #include "mis/math/stable.h"
 
 #include <algorithm>
