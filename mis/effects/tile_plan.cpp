@@ -48,8 +48,9 @@ struct TilePlanner::TileBounds {
     bool is_below(const Light& light) const;
 };
 
-TilePlanner::TilePlanner(const Scene& scene, const Effects& effects, const Vec3<double>& frame)
-    : scene_(&scene), effects_(effects), frame_(frame)
+TilePlanner::TilePlanner(const Scene& scene, const LightHierarchy& hierarchy,
+                         const Effects& effects, const Vec3<double>& frame)
+    : scene_(&scene), hierarchy_(&hierarchy), effects_(effects), frame_(frame)
 {
     for (const Surface& surface : scene.surfaces) {
         Body body;
@@ -190,11 +191,13 @@ void TilePlanner::prove_each(const TileBounds& tile, TilePlan& plan) const
 
 TilePlan TilePlanner::plan(std::span<const ShadingPoint> points) const
 {
-    TilePlan plan{effects_.shadows, effects_.light_occlusion, {}};
+    TilePlan plan{effects_.shadows, effects_.light_occlusion, {}, nullptr};
     const TileBounds tile = bounds_of(points);
     if (scene_->lights.size() * std::max<std::size_t>(bodies_.size(), 1) <= most_surface_pairs)
         prove_each(tile, plan);
     else prove_all_at_once(tile, plan);
+    if (plan.light_occlusion)
+        plan.blockers = Blockers::of(*hierarchy_, scene_->lights, points, budget_);
     return plan;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "mis/effects/blockers.h"
 #include "mis/effects/effects.h"
 #include "mis/effects/shaft.h"
 #include "mis/scene/shading_point.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,9 +21,10 @@ enum LightProof : std::uint8_t {
 
 /// What one tile calls for. Plain data.
 struct TilePlan {
-    bool shadows = true;               ///< of any light that is not below
-    bool light_occlusion = true;       ///< of any light that is not below
-    std::vector<std::uint8_t> lights;  ///< [light]: its proofs; empty: none
+    bool shadows = true;                       ///< of any light that is not below
+    bool light_occlusion = true;               ///< of any light that is not below
+    std::vector<std::uint8_t> lights;          ///< [light]: its proofs; empty: none
+    std::shared_ptr<const Blockers> blockers;  ///< null: the hierarchy is asked
 };
 
 /// Finds the plans of a scene's tiles: what surfaces and lights provably do not stand between the
@@ -29,8 +32,9 @@ struct TilePlan {
 /// must be wider than what float rays may pass beside.
 class TilePlanner {
 public:
-    /// frame: SurfaceTracer::origin(); scene: kept by reference.
-    TilePlanner(const Scene& scene, const Effects& effects, const Vec3<double>& frame);
+    /// frame: SurfaceTracer::origin(); scene and the hierarchy of its lights: kept by reference.
+    TilePlanner(const Scene& scene, const LightHierarchy& hierarchy, const Effects& effects,
+                const Vec3<double>& frame);
 
     /// What a tile of these points calls for. points: at least one.
     TilePlan plan(std::span<const ShadingPoint> points) const;
@@ -60,8 +64,10 @@ private:
     void prove_each(const TileBounds& tile, TilePlan& plan) const;
 
     const Scene* scene_;
+    const LightHierarchy* hierarchy_;
     Effects effects_;
     Vec3<double> frame_;
+    std::shared_ptr<ListBudget> budget_ = std::make_shared<ListBudget>(Blockers::most_bytes);
     std::vector<Body> bodies_;
     Vec3<double> lights_center_{0};
     double lights_radius_ = 0;

@@ -23,11 +23,12 @@ template <class T> struct TileJob {
     const LightHierarchy* hierarchy = nullptr;
     const SurfaceTracer* surfaces = nullptr;  ///< nullptr where none can occlude
     std::span<const std::uint8_t> proofs;     ///< [light] LightProof bits; empty: nothing is proved
+    const Blockers* blockers = nullptr;       ///< of the tile; nullptr: the hierarchy is asked
     Vec3<double> origin{0};                   ///< of the columns
     LightColumns<T> columns;       ///< for policies that look at all lights, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
-    int bsdf_type = -1;  ///< its number in the registry
+    int bsdf_type = -1;  ///< bsdf_number() of its name
     NumberSource numbers;
     T light_count = 1,
       bsdf_count = 1;  ///< n_i of the multi-sample model; c_i of the one-sample model

@@ -86,12 +86,13 @@ template <class T> void fill_kernels(Kernels<T>& kernels)
                 {K::name, K::sums_lights, draw_light<V, K, T>, pdf_of_light<V, K, T>});
         else
             for_each_type(Bsdfs{}, [&]<class B>() {
+                using Asked = std::conditional_t<K::asks_bsdf, FormulaOf<B>, NoBsdf>;
                 kernels.directions.push_back(
-                    {K::name, B::name, draw_direction<V, B, K, T>, pdf_of_direction<V, K, T>});
+                    {K::name, B::name, draw_direction<V, Asked, K, T>, pdf_of_direction<V, K, T>});
             });
     });
     for_each_type(Bsdfs{}, [&]<class B>() {
-        kernels.bsdfs.push_back({B::name, evaluate_bsdf<V, B, T>});
+        kernels.bsdfs.push_back({B::name, evaluate_bsdf<V, FormulaOf<B>, T>});
     });
     for_each_type(Heuristics{}, [&]<class H>() {
         kernels.heuristics.push_back({H::name, weigh_light<V, H, T>, weigh_bsdf<V, H, T>});

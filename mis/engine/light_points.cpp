@@ -57,8 +57,9 @@ void PointLighter::light_some(const PointArrays& points, std::size_t begin, std:
         scene_->surfaces() != nullptr ? scene_->surfaces()->origin() : Vec3<double>(0);
     for (std::size_t k = 0; k < order_.size();) {
         const int here = material(order_[k]);
-        assert(here >= 0 && here < static_cast<int>(scene_->scene().materials.size()) &&
-               "points.material: a number of one of the scene's materials");
+        const bool is_known =
+            here >= 0 && here < static_cast<int>(scene_->scene().materials.size());
+        assert(is_known && "points.material: a number of one of the scene's materials");
         points_.clear(), places_.clear();
         for (; k < order_.size() && material(order_[k]) == here; ++k) {
             const std::uint32_t i = order_[k];
@@ -66,8 +67,12 @@ void PointLighter::light_some(const PointArrays& points, std::size_t begin, std:
                 at<double>(points.x, i), at<float>(points.n, i), at<float>(points.wo, i),
                 vec_cast<float>(at<double>(points.ray_origin, i) - frame), points.id[i]};
             for (const std::span<float>& channel : radiance) channel[i] = 0;
-            const bool is_lit = is_finite(point.x) && dot(point.n, point.wo) > 0 &&
-                                !scene_->lights().contains(point.x);
+            const float cos_out = dot(point.n, point.wo);
+            if (!is_known || !is_finite(point.x) || !std::isfinite(cos_out)) {
+                totals_.invalid += static_cast<std::uint64_t>(count);
+                continue;
+            }
+            const bool is_lit = cos_out > 0 && !scene_->lights().contains(point.x);
             if (is_lit) points_.push_back(point), places_.push_back(i);
         }
         if (!points_.empty()) light_tile(here, first, count, radiance);

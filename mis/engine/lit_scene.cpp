@@ -7,7 +7,8 @@ namespace mis {
 
 LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects)
     : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights),
-      planner_(scene, effects, surfaces != nullptr ? surfaces->origin() : Vec3<double>(0))
+      planner_(scene, hierarchy_, effects,
+               surfaces != nullptr ? surfaces->origin() : Vec3<double>(0))
 {
     for (const Material& material : scene.materials) bsdfs_.push_back(make_bsdf(material));
 }
@@ -60,6 +61,7 @@ TileJob<T> ReadyStrategy<T>::job(const Tile& tile, std::span<const ShadingPoint>
     job.points = points;
     job.origin = tile.origin;
     job.proofs = tile.plan.lights;
+    job.blockers = tile.plan.blockers.get();
     const AnyBsdf bsdf = scene_->bsdf(tile.material);
     job.bsdf = bsdf.object, job.bsdf_type = bsdf.type;
     return job;

@@ -61,4 +61,17 @@ MIS_INLINE Vec3<double> exact_direction(const TileJob<T>& job, const Batch<T>& b
                       vec_cast<double>(batch.offset.at(row)));
 }
 
+/// Where a light draw meets its own light; at the rim, where rounding may miss it, the nearest
+/// point of the ray.
+template <class T>
+MIS_INLINE LightHit own_hit(const TileJob<T>& job, const Batch<T>& batch, int row,
+                            const Vec3<double>& wi)
+{
+    const LightIndex j = batch.light[static_cast<std::size_t>(row)];
+    const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
+    const Vec3<double> to_center = light.center - shading_point(job, batch, row).x;
+    const double distance = hit_distance(to_center, light.radius, wi);
+    return {j, distance < std::numeric_limits<double>::infinity() ? distance : dot(to_center, wi)};
+}
+
 }  // namespace mis

@@ -26,6 +26,9 @@ template <class V, class B, class T> void evaluate_bsdf(const TileJob<T>& job, B
     });
 }
 
+/// What a technique is given that does not ask the BSDF.
+struct NoBsdf {};
+
 /// lobe, u, v → wi. A draw below the horizon is lost: wi = 0.
 template <class V, class B, class Technique, class T>
 void draw_direction(const TileJob<T>& job, Batch<T>& batch)

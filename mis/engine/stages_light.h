@@ -143,18 +143,6 @@ template <class T> double solid_angle(const TileJob<T>& job, LightIndex j, const
     return cap_of_sphere(light.center, light.radius, x).solid_angle();
 }
 
-/// Where a light draw meets its own light; at the rim, where rounding may miss it, the nearest
-/// point of the ray.
-template <class T>
-LightHit own_hit(const TileJob<T>& job, const Batch<T>& batch, int row, const Vec3<double>& wi)
-{
-    const LightIndex j = batch.light[static_cast<std::size_t>(row)];
-    const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
-    const Vec3<double> to_center = light.center - shading_point(job, batch, row).x;
-    const double distance = hit_distance(to_center, light.radius, wi);
-    return {j, distance < std::numeric_limits<double>::infinity() ? distance : dot(to_center, wi)};
-}
-
 /// The union's density for a light draw: the sum over all lights whose cap holds wi, and the
 /// radiance of the nearest.
 template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch<T>& batch)

@@ -110,15 +110,26 @@ template <class T> void keep_bsdf_rows(const TileJob<T>& job, Batch<T>& batch)
 template <class T> void meet_lights(const TileJob<T>& job, Batch<T>& batch)
 {
     const bool is_screened = job.lights->size() <= most_screened_lights;
-    keep_rows(batch, [&](int row) {
+    std::array<std::int32_t, batch_capacity> row_of;  // NOLINT: filled as far as it is read
+    std::size_t count = 0;
+    for (int row = 0; row < batch.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
-        if (is_zero(batch.wi, row) || (is_screened && batch.candidate[i] == 0)) return false;
-        const LightHit hit =
-            job.hierarchy->nearest(shading_point(job, batch, row).x, unit_direction(batch, row));
-        batch.light[i] = hit.light;
-        batch.distance[i] = static_cast<T>(hit.distance);
-        return hit.light >= 0;
-    });
+        batch.light[i] = no_light;
+        row_of[count] = row;
+        count += !is_zero(batch.wi, row) && !(is_screened && batch.candidate[i] == 0);
+    }
+    job.hierarchy->nearest_each(
+        count,
+        [&](std::size_t i) {
+            return LightHierarchy::Ray{shading_point(job, batch, row_of[i]).x,
+                                       unit_direction(batch, row_of[i])};
+        },
+        [&](std::size_t i, const LightHit& hit) {
+            const auto row = static_cast<std::size_t>(row_of[i]);
+            batch.light[row] = hit.light;
+            batch.distance[row] = static_cast<T>(hit.distance);
+        });
+    keep_rows(batch, [&](int row) { return batch.light[static_cast<std::size_t>(row)] >= 0; });
 }
 
 template <class T> void fetch_radiance(const TileJob<T>& job, Batch<T>& batch)
@@ -132,18 +143,34 @@ template <class T> void fetch_radiance(const TileJob<T>& job, Batch<T>& batch)
 template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
 {
     const bool is_screened = job.lights->size() <= most_screened_lights;
+    std::array<std::int32_t, batch_capacity> row_of;  // NOLINT: filled as far as it is read
+    std::size_t count = 0;
+    const auto ray_of = [&](int row) {
+        return LightHierarchy::Ray{shading_point(job, batch, row).x,
+                                   exact_direction(job, batch, row)};
+    };
     for (int row = 0; row < batch.rows; ++row) {
         if (is_zero(batch.contribution, row)) continue;
         if (is_screened && batch.candidate[static_cast<std::size_t>(row)] == 0) continue;
         const LightIndex j = batch.light[static_cast<std::size_t>(row)];
         if (job.knows(j, unhidden)) continue;
-        const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
-        const Vec3<double> x = shading_point(job, batch, row).x;
-        const Vec3<double> to_center = light.center - x, wi = exact_direction(job, batch, row);
-        const double own = hit_distance(to_center, light.radius, wi);
-        const LightHit hit{j, std::isfinite(own) ? own : dot(to_center, wi)};
-        if (job.hierarchy->hides(x, wi, hit)) batch.contribution.put(row, Vec3<T>(T(0)));
+        const auto others = job.blockers != nullptr ? job.blockers->before(j) : std::nullopt;
+        if (!others) {
+            row_of[count++] = row;
+        } else if (!others->empty()) {
+            const LightHierarchy::Ray ray = ray_of(row);
+            if (job.hierarchy->hides(ray.x, ray.wi, own_hit(job, batch, row, ray.wi), *others))
+                batch.contribution.put(row, Vec3<T>(T(0)));
+        }
     }
+    job.hierarchy->hides_each(
+        count, [&](std::size_t i) { return ray_of(row_of[i]); },
+        [&](std::size_t i, const LightHierarchy::Ray& ray) {
+            return own_hit(job, batch, row_of[i], ray.wi);
+        },
+        [&](std::size_t i, bool is_hidden) {
+            if (is_hidden) batch.contribution.put(row_of[i], Vec3<T>(T(0)));
+        });
 }
 
 template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)

@@ -14,7 +14,10 @@ struct std::numeric_limits<xsimd::batch<T, A>> : std::numeric_limits<T> {
 };
 #endif
 
+// All that kernels call is inlined by force, but what is too large for that, of which each source
+// has a copy of its own (docs/theory.md, "Instruction sets").
 #define MIS_INLINE [[gnu::always_inline]] inline
+#define MIS_OWN_COPY [[gnu::noinline]] static
 
 namespace mis {
 

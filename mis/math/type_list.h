@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 namespace mis {
 
 /// Some types, as a value; a registry (`mis/policy/registry.h` …) is one.
@@ -11,5 +13,20 @@ template <class... Ts, class F> constexpr void for_each_type(TypeList<Ts...>, F&
 {
     (f.template operator()<Ts>(), ...);
 }
+
+namespace detail {
+template <class Found, class... Rest> struct DistinctOf {
+    using type = Found;
+};
+template <class... Found, class T, class... Rest>
+struct DistinctOf<TypeList<Found...>, T, Rest...>
+    : DistinctOf<std::conditional_t<(std::is_same_v<Found, T> || ...), TypeList<Found...>,
+                                    TypeList<Found..., T>>,
+                 Rest...> {
+};
+}  // namespace detail
+
+/// Some types, each once, in the order in which they first stand.
+template <class... Ts> using Distinct = typename detail::DistinctOf<TypeList<>, Ts...>::type;
 
 }  // namespace mis

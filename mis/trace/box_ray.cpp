@@ -1,4 +1,4 @@
-#include "mis/trace/lights.h"
+#include "mis/trace/light_boxes.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -8,8 +8,8 @@ namespace mis {
 
 namespace {
 
-using Node = LightHierarchy::Node;
-constexpr std::size_t width = LightHierarchy::width;
+using Node = LightNode;
+constexpr std::size_t width = LightNode::width;
 
 std::uint32_t children_of(const Node& node) { return (1U << (node.nodes + node.lights)) - 1; }
 std::uint32_t nodes_of(const Node& node) { return (1U << node.nodes) - 1; }

@@ -1,5 +1,6 @@
 #include "mis/trace/lights.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mis {
@@ -7,7 +8,7 @@ namespace mis {
 namespace {
 
 /// May p be in the box of child k?
-bool may_hold(const LightHierarchy::Node& node, std::size_t k, const Vec3<float>& p)
+bool may_hold(const LightNode& node, std::size_t k, const Vec3<float>& p)
 {
     for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
@@ -20,6 +21,18 @@ bool may_hold(const LightHierarchy::Node& node, std::size_t k, const Vec3<float>
 }
 
 }  // namespace
+
+LightHierarchy::BoxBall LightHierarchy::ball_around(const Node& node, std::size_t k) const
+{
+    Vec3<double> low, high;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        const auto step = static_cast<double>(node.step[a]);
+        low[axis] = static_cast<double>(node.low_origin[a]) + node.low[a][k] * step;
+        high[axis] = static_cast<double>(node.high_origin[a]) + node.high[a][k] * step;
+    }
+    return {origin_ + 0.5 * (low + high), 0.5 * length(high - low)};
+}
 
 bool LightHierarchy::contains(const Vec3<double>& x) const
 {
@@ -44,27 +57,12 @@ bool LightHierarchy::contains(const Vec3<double>& x) const
     return false;
 }
 
-LightHit LightHierarchy::nearest(const Vec3<double>& x, const Vec3<double>& wi) const
+bool LightHierarchy::hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit,
+                           std::span<const LightIndex> others) const
 {
-    LightHit best;
-    walk(x, wi, best.distance, no_light, [&](const LightHit& hit) {
-        if (hit.distance < best.distance ||
-            (hit.distance == best.distance && hit.light < best.light))
-            best = hit;
-        return best.distance;
+    return std::any_of(others.begin(), others.end(), [&](LightIndex j) {
+        return stands_before({j, distance_to(j, x, wi)}, hit);
     });
-    return best;
-}
-
-bool LightHierarchy::hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit) const
-{
-    bool hidden = false;
-    walk(x, wi, hit.distance, hit.light, [&](const LightHit& other) {
-        if (other.distance > hit.distance) return hit.distance;
-        if (other.distance < hit.distance || other.light < hit.light) hidden = true;
-        return hidden ? 0.0 : hit.distance;
-    });
-    return hidden;
 }
 
 }  // namespace mis

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "mis/math/four_floats.h"
 #include "mis/math/sphere.h"
 #include "mis/scene/light.h"
+#include "mis/trace/light_boxes.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -22,6 +21,12 @@ struct LightHit {
     double distance = std::numeric_limits<double>::infinity();
 };
 
+/// Is it met before another one? At equal distance, the one listed first is.
+inline bool stands_before(const LightHit& a, const LightHit& b)
+{
+    return a.distance < b.distance || (a.distance == b.distance && a.light < b.light);
+}
+
 /// Which light does a direction meet first, and whose caps hold it? A bounding volume hierarchy
 /// over the spheres, which never enter the surfaces' tree. Boxes are float and wide enough for
 /// every rounding; what they let through is tested in double, so the answers are those of a loop
@@ -31,54 +36,136 @@ public:
     /// Keeps a reference to the lights.
     explicit LightHierarchy(const Lights& lights);
 
+    /// Light j has become another sphere, and stood where `before` says: the boxes around it are
+    /// made anew, O(log M) of them, and nothing allocates. Answers are those of a new hierarchy;
+    /// where many lights have gone far, it takes longer to find them than a new one would.
+    void refit(LightIndex j, const Light& before);
+
     /// Is x inside a light or on it?
     bool contains(const Vec3<double>& x) const;
 
     /// The nearest light along wi from x, which lies outside all lights; at equal distance the one
     /// listed first.
-    LightHit nearest(const Vec3<double>& x, const Vec3<double>& wi) const;
+    LightHit nearest(const Vec3<double>& x, const Vec3<double>& wi) const
+    {
+        return walked(Nearest{x, wi}).best;
+    }
 
-    /// Does another light than `light`, which is met at `distance`, stand before it?
-    bool hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit) const;
+    /// Does another light stand before the one that is met? Coincident, the one listed first does.
+    bool hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit) const
+    {
+        return walked(Hides{x, wi, hit.light, hit.distance, hit}).is_hidden;
+    }
+
+    /// The same, where only `others` can.
+    bool hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit,
+               std::span<const LightIndex> others) const;
+
+    /// What is asked of many rays: several are under way at a time, so that one computes while
+    /// another waits for memory. The answers are those of one after the other.
+    struct Ray {
+        Vec3<double> x, wi;
+    };
+    /// done(i, LightHit) for each ray_of(i), i < count, in no order.
+    template <class RayOf, class Done>
+    void nearest_each(std::size_t count, const RayOf& ray_of, const Done& done) const
+    {
+        walk_each(
+            count,
+            [&](std::size_t i) {
+                const Ray ray = ray_of(i);
+                return Nearest{ray.x, ray.wi};
+            },
+            [&](std::size_t i, const Nearest& task) { done(i, task.best); });
+    }
+    /// done(i, is_hidden) for each ray_of(i) to hit_of(i, ray), i < count, in no order.
+    template <class RayOf, class HitOf, class Done>
+    void hides_each(std::size_t count, const RayOf& ray_of, const HitOf& hit_of,
+                    const Done& done) const
+    {
+        walk_each(
+            count,
+            [&](std::size_t i) {
+                const Ray ray = ray_of(i);
+                const LightHit hit = hit_of(i, ray);
+                return Hides{ray.x, ray.wi, hit.light, hit.distance, hit};
+            },
+            [&](std::size_t i, const Hides& task) { done(i, task.is_hidden); });
+    }
 
     /// visit(LightHit) for every light along wi, hidden ones too, in no order.
     template <class Visit>
     void for_each_along(const Vec3<double>& x, const Vec3<double>& wi, const Visit& visit) const
     {
-        constexpr double everything = std::numeric_limits<double>::infinity();
-        walk(x, wi, everything, no_light, [&](const LightHit& hit) {
-            visit(hit);
-            return everything;
-        });
+        walked(Along<Visit>{x, wi, &visit});
     }
+
+    /// visit(j) for every light whose ball touches(center, radius), until it returns false; a ball
+    /// around a group of lights is asked first.
+    template <class Touches, class Visit>
+    void for_each_touching(const Touches& touches, const Visit& visit) const;
 
     std::size_t bytes() const
     {
         return nodes_.size() * sizeof(Node) + order_.size() * sizeof(LightIndex);
     }
 
-    /// Children of a node: their boxes are tested together, in lanes.
-    static constexpr std::size_t width = 8;
-
-    /// Up to eight boxes, on a grid of 255 steps across the box around them all. Its first children
-    /// are nodes, the others single lights.
-    struct Node {
-        /// Of the grid; origins are relative to the tree's, one for lower and one for upper bounds,
-        /// apart by the room for rounding.
-        std::array<float, 3> low_origin, high_origin, step;
-        std::array<std::array<std::uint8_t, width>, 3> low, high;  ///< [axis][child], in steps
-        std::uint32_t first_node, first_light;                     ///< of nodes_; of order_
-        std::uint8_t nodes, lights;
-    };
+    using Node = LightNode;
 
 private:
     struct Builder;
+    struct Refit;
 
-    /// meet(hit) for the lights along wi up to `limit`, but for one; it returns the distance beyond
-    /// which nothing is of interest.
-    template <class Meet>
-    void walk(const Vec3<double>& x, const Vec3<double>& wi, double limit, LightIndex but,
-              const Meet& meet) const;
+    /// Along wi from x; infinity: it is not met.
+    double distance_to(LightIndex j, const Vec3<double>& x, const Vec3<double>& wi) const
+    {
+        const Light& light = (*lights_)[static_cast<std::size_t>(j)];
+        const Vec3<double> to_center = light.center - x;
+        return meets_sphere(to_center, light.radius, wi) ? hit_distance(to_center, light.radius, wi)
+                                                         : std::numeric_limits<double>::infinity();
+    }
+
+    /// Half the diagonal, and the middle, of the box of child k.
+    struct BoxBall {
+        Vec3<double> center;
+        double radius;
+    };
+    BoxBall ball_around(const Node& node, std::size_t k) const;
+
+    // What is looked for along a ray. limit: beyond it, nothing is of interest; but: not asked.
+    static constexpr double everything = std::numeric_limits<double>::infinity();
+    struct Nearest {
+        Vec3<double> x, wi;
+        LightIndex but = no_light;
+        double limit = everything;
+        LightHit best = {};
+        void meet(const LightHit& hit)
+        {
+            if (stands_before(hit, best)) best = hit, limit = hit.distance;
+        }
+    };
+    struct Hides {
+        Vec3<double> x, wi;
+        LightIndex but;
+        double limit;
+        LightHit hit;
+        bool is_hidden = false;
+        void meet(const LightHit& other)
+        {
+            if (stands_before(other, hit)) is_hidden = true, limit = -1;
+        }
+    };
+    template <class Visit> struct Along {
+        Vec3<double> x, wi;
+        const Visit* visit;
+        LightIndex but = no_light;
+        double limit = everything;
+        void meet(const LightHit& hit) { (*visit)(hit); }
+    };
+    template <class Task> class Walk;
+    template <class Task> Task walked(const Task& task) const;
+    template <class TaskOf, class Done>
+    void walk_each(std::size_t count, const TaskOf& task_of, const Done& done) const;
 
     const Lights* lights_;
     Vec3<double> origin_{0};
@@ -86,72 +173,98 @@ private:
     std::vector<LightIndex> order_;
 };
 
-/// Nodes that wait while one is looked at, and where the ray enters them: at most 7 on each of 50
-/// levels, and room to write eight at once.
-struct WaitingNodes {
-    static constexpr std::size_t most = 352 + LightHierarchy::width;
-    std::array<std::uint32_t, most> node;  // NOLINT: filled before it is read
-    std::array<float, most> near;          // NOLINT
-    std::size_t count = 0;
-};
-
-/// A ray as the boxes see it: in float, every box wider by what rounding may come to, which is
-/// below 1e-6 of the coordinates at hand: three roundings of t (Ize 2013, "Robust BVH Ray
-/// Traversal"), one of the origin and one of the direction. The fourth numbers are padding.
-struct BoxRay {
-    BoxRay(const Vec3<double>& from, const Vec3<double>& direction)
+/// The lights along a ray, one node of the hierarchy at a time.
+template <class Task> class LightHierarchy::Walk {
+public:
+    void start(const LightHierarchy& hierarchy, const Task& what)
     {
-        const Vec3<float> o = vec_cast<float>(from), d = vec_cast<float>(direction);
-        const FourFloats at = four(o.x, o.y, o.z, 0);
-        const FourFloats margin = magnitude(at) * four(1e-6F);
-        put(at - margin, low_origin.data());
-        put(at + margin, high_origin.data());
-        put(four(1) / four(not_zero(d.x), not_zero(d.y), not_zero(d.z), 1), inverse.data());
+        task = what;
+        ray_ = BoxRay(task.x - hierarchy.origin_, task.wi);
+        stack_.node[0] = 0, stack_.near[0] = 0, stack_.count = hierarchy.nodes_.empty() ? 0 : 1;
     }
 
-    /// Puts the children that are nodes and whose boxes the ray meets before `limit` onto the
-    /// stack; returns the lights whose boxes it meets: bit k is light `first_light` + k.
-    std::uint32_t open(const LightHierarchy::Node& node, float limit, WaitingNodes& stack) const
+    /// Opens the next node; false where none is left.
+    bool step(const LightHierarchy& hierarchy)
     {
-        return open_node(*this, node, limit, stack);
+        const float limit = static_cast<float>(task.limit) * 1.000001F;
+        std::size_t next = stack_.count;
+        do {
+            if (next == 0) return false;
+        } while (stack_.near[--next] > limit);
+        stack_.count = next;
+        const Node& node = hierarchy.nodes_[stack_.node[next]];
+        for (std::uint32_t met = ray_.open(node, limit, stack_); met != 0; met &= met - 1)
+            meet(hierarchy,
+                 hierarchy
+                     .order_[node.first_light + static_cast<std::uint32_t>(std::countr_zero(met))]);
+        return true;
     }
 
-    alignas(16) std::array<float, 4> low_origin{}, high_origin{}, inverse{};
+    Task task;
+    std::size_t number = 0;  ///< of the caller
 
 private:
-    using OpenNode = std::uint32_t (*)(const BoxRay&, const LightHierarchy::Node&, float limit,
-                                       WaitingNodes&);
-    static float not_zero(float d) { return std::abs(d) > 1e-20F ? d : std::copysign(1e-20F, d); }
+    void meet(const LightHierarchy& hierarchy, LightIndex j)
+    {
+        if (j == task.but) return;
+        const double distance = hierarchy.distance_to(j, task.x, task.wi);
+        if (distance <= task.limit && distance < std::numeric_limits<double>::infinity())
+            task.meet({j, distance});
+    }
 
-    /// By the widest vectors that this processor has; all give the same bits.
-    static const OpenNode open_node;
+    BoxRay ray_;
+    WaitingNodes stack_;  // NOLINT: filled before it is read
 };
 
-template <class Meet>
-void LightHierarchy::walk(const Vec3<double>& x, const Vec3<double>& wi, double limit,
-                          LightIndex but, const Meet& meet) const
+template <class Task> Task LightHierarchy::walked(const Task& task) const
+{
+    Walk<Task> walk;  // NOLINT
+    walk.start(*this, task);
+    while (walk.step(*this)) {
+    }
+    return walk.task;
+}
+
+template <class TaskOf, class Done>
+void LightHierarchy::walk_each(std::size_t count, const TaskOf& task_of, const Done& done) const
+{
+    constexpr std::size_t at_once = 4;
+    using Task = decltype(task_of(std::size_t{}));
+    std::array<Walk<Task>, at_once> walks;  // NOLINT
+    std::array<Walk<Task>*, at_once> under_way{};
+    std::size_t started = 0, running = 0;
+    const auto start = [&](Walk<Task>& walk) {
+        walk.number = started;
+        walk.start(*this, task_of(started++));
+    };
+    for (Walk<Task>& walk : walks)
+        if (started < count) start(walk), under_way[running++] = &walk;
+    while (running > 0)
+        for (std::size_t w = 0; w < running; ++w) {
+            if (under_way[w]->step(*this)) continue;
+            done(under_way[w]->number, under_way[w]->task);
+            if (started < count) start(*under_way[w]);
+            else under_way[w--] = under_way[--running];
+        }
+}
+
+template <class Touches, class Visit>
+void LightHierarchy::for_each_touching(const Touches& touches, const Visit& visit) const
 {
     if (nodes_.empty()) return;
-    const BoxRay ray(x - origin_, wi);
-    WaitingNodes stack;  // NOLINT
-    stack.node[0] = 0, stack.near[0] = 0, stack.count = 1;
-    float box_limit = static_cast<float>(limit) * 1.000001F;
-    while (stack.count > 0) {
-        const std::size_t next = --stack.count;
-        if (stack.near[next] > box_limit) continue;
-        const Node& node = nodes_[stack.node[next]];
-        for (std::uint32_t met = ray.open(node, box_limit, stack); met != 0; met &= met - 1) {
-            const LightIndex j =
-                order_[node.first_light + static_cast<std::uint32_t>(std::countr_zero(met))];
-            if (j == but) continue;
+    std::array<std::uint32_t, WaitingNodes::most> stack;  // NOLINT: filled before it is read
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const Node& node = nodes_[stack[--depth]];
+        for (std::uint32_t k = 0; k < node.nodes; ++k) {
+            const BoxBall ball = ball_around(node, k);
+            if (touches(ball.center, ball.radius)) stack[depth++] = node.first_node + k;
+        }
+        for (std::uint32_t k = 0; k < node.lights; ++k) {
+            const LightIndex j = order_[node.first_light + k];
             const Light& light = (*lights_)[static_cast<std::size_t>(j)];
-            const Vec3<double> to_center = light.center - x;
-            if (!meets_sphere(to_center, light.radius, wi)) continue;
-            const double distance = hit_distance(to_center, light.radius, wi);
-            if (distance <= limit && distance < std::numeric_limits<double>::infinity()) {
-                limit = meet(LightHit{j, distance});
-                box_limit = static_cast<float>(limit) * 1.000001F;
-            }
+            if (touches(light.center, light.radius) && !visit(j)) return;
         }
     }
 }

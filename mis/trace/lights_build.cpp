@@ -1,5 +1,6 @@
 #include "mis/trace/lights.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace mis {
@@ -21,6 +22,12 @@ struct Box {
         high{-std::numeric_limits<double>::infinity()};
     void add(const Box& b) { low = glm::min(low, b.low), high = glm::max(high, b.high); }
 };
+
+Box bounds(const Light& light, const Vec3<double>& origin)
+{
+    const Vec3<double> center = light.center - origin;
+    return {center - light.radius, center + light.radius};
+}
 
 /// A rough box, of which only the area counts. The fourth number means nothing.
 struct RoughBox {
@@ -84,7 +91,7 @@ struct Range {
 /// Puts boxes onto the grid of a node, outwards.
 class Grid {
 public:
-    Grid(LightHierarchy::Node& node, const Box& around) : node_(node)
+    Grid(LightNode& node, const Box& around) : node_(node)
     {
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
@@ -110,7 +117,7 @@ public:
     }
 
 private:
-    LightHierarchy::Node& node_;
+    LightNode& node_;
     Vec3<double> origin_{0};
 };
 
@@ -140,15 +147,13 @@ struct LightHierarchy::Builder {
 
     Box bounds_of(LightIndex index) const
     {
-        const Light& light = (*tree.lights_)[static_cast<std::size_t>(index)];
-        const Vec3<double> center = light.center - tree.origin_;
-        return {center - light.radius, center + light.radius};
+        return bounds((*tree.lights_)[static_cast<std::size_t>(index)], tree.origin_);
     }
 
     /// Fills node `self` with the lights of `range`; the box around them.
     Box build(std::size_t self, const Range& range, int depth)
     {
-        std::array<Range, width> parts;  // NOLINT: filled before it is read
+        std::array<Range, LightNode::width> parts;  // NOLINT: filled before it is read
         const std::size_t count = children_of(range, depth, parts);
         const auto end = parts.begin() + static_cast<std::ptrdiff_t>(count);
         const auto singles = std::stable_partition(
@@ -161,7 +166,7 @@ struct LightHierarchy::Builder {
         node.first_light = static_cast<std::uint32_t>(leaves.size());
         for (std::size_t k = inner; k < count; ++k) leaves.push_back(items[parts[k].first].light);
         tree.nodes_.resize(tree.nodes_.size() + inner);
-        std::array<Box, width> boxes;
+        std::array<Box, LightNode::width> boxes;
         Box around;
         for (std::size_t k = 0; k < count; ++k) {
             boxes[k] = k < inner ? build(node.first_node + k, parts[k], depth + 3)
@@ -176,22 +181,23 @@ struct LightHierarchy::Builder {
 
     /// At most eight parts: as few as hold at most eight lights each; in the room that is left,
     /// small ones light by light. Returns how many.
-    std::size_t children_of(const Range& range, int depth, std::array<Range, width>& found)
+    std::size_t children_of(const Range& range, int depth,
+                            std::array<Range, LightNode::width>& found)
     {
-        std::array<Range, width> parts;  // NOLINT: filled before it is read
+        std::array<Range, LightNode::width> parts;  // NOLINT: filled before it is read
         std::size_t count = 0;
         parts[count++] = range;
         const auto by_count = [](const Range& a, const Range& b) { return a.count() < b.count(); };
         const auto end = [&] { return parts.begin() + static_cast<std::ptrdiff_t>(count); };
-        while (count < width) {
+        while (count < LightNode::width) {
             const auto largest = std::max_element(parts.begin(), end(), by_count);
-            if (largest->count() <= width) break;
+            if (largest->count() <= LightNode::width) break;
             const std::uint32_t middle = split(*largest, depth);
             parts[count++] = {middle, largest->end};
             largest->end = middle;
         }
         std::sort(parts.begin(), end(), by_count);
-        std::size_t room = width - count, opened = 0;
+        std::size_t room = LightNode::width - count, opened = 0;
         for (auto part = parts.begin(); part != end(); ++part) {
             const bool opens = part->count() <= room + 1;
             for (std::uint32_t i = part->first; opens && i < part->end; ++i)
@@ -273,6 +279,83 @@ LightHierarchy::LightHierarchy(const Lights& lights) : lights_(&lights)
     builder.run();
     order_ = std::move(builder.leaves);
     nodes_.shrink_to_fit();
+}
+
+/// Finds the node that names a light by where the light was, and widens or narrows the boxes from
+/// there to the root.
+struct LightHierarchy::Refit {
+    LightHierarchy& tree;
+    LightIndex light;
+    Box before;
+
+    /// Is the light below this node? Then its boxes are right again.
+    bool visit(Node& node)
+    {
+        if (!names(node) && !is_below(node)) return false;
+        std::array<Box, LightNode::width> boxes;
+        Box around;
+        const std::size_t count = node.nodes + node.lights;
+        for (std::size_t k = 0; k < count; ++k) {
+            boxes[k] = k < node.nodes
+                           ? extent(tree.nodes_[node.first_node + k])
+                           : bounds((*tree.lights_)[static_cast<std::size_t>(named(node, k))],
+                                    tree.origin_);
+            around.add(boxes[k]);
+        }
+        Grid grid(node, around);
+        for (std::size_t k = 0; k < count; ++k) grid.put(k, boxes[k]);
+        return true;
+    }
+
+private:
+    LightIndex named(const Node& node, std::size_t k) const
+    {
+        return tree.order_[node.first_light + k - node.nodes];
+    }
+    bool names(const Node& node) const
+    {
+        for (std::size_t k = node.nodes; k < std::size_t{node.nodes} + node.lights; ++k)
+            if (named(node, k) == light) return true;
+        return false;
+    }
+    bool is_below(const Node& node)
+    {
+        for (std::size_t k = 0; k < node.nodes; ++k)
+            if (holds_before(node, k) && visit(tree.nodes_[node.first_node + k])) return true;
+        return false;
+    }
+    bool holds_before(const Node& node, std::size_t k) const
+    {
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto axis = static_cast<int>(a);
+            const auto step = static_cast<double>(node.step[a]);
+            if (static_cast<double>(node.low_origin[a]) + node.low[a][k] * step > before.low[axis])
+                return false;
+            if (static_cast<double>(node.high_origin[a]) + node.high[a][k] * step <
+                before.high[axis])
+                return false;
+        }
+        return true;
+    }
+    /// The whole of a node's grid.
+    static Box extent(const Node& node)
+    {
+        Box box;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto axis = static_cast<int>(a);
+            box.low[axis] = static_cast<double>(node.low_origin[a]);
+            box.high[axis] =
+                static_cast<double>(node.high_origin[a]) + 255 * static_cast<double>(node.step[a]);
+        }
+        return box;
+    }
+};
+
+void LightHierarchy::refit(LightIndex j, const Light& before)
+{
+    Refit refit{*this, j, bounds(before, origin_)};
+    [[maybe_unused]] const bool found = refit.visit(nodes_[0]);
+    assert(found && "before: where light j stood");
 }
 
 }  // namespace mis

@@ -151,11 +151,31 @@ TEST(LightPoints, WhatCannotBeLitIsBlack)
     const Light& light = host.scene.lights[1];
     for (int c = 0; c < 3; ++c) columns.x[static_cast<std::size_t>(c)][7] = light.center[c];
     PointLighter lighter(host.lit, strategy);
-    EXPECT_EQ(lighter.light(columns.points(), 0, 16, columns.out()).invalid, 0u);
+    EXPECT_EQ(lighter.light(columns.points(), 0, 16, columns.out()).invalid, 16u);
     for (const std::size_t dark : {3u, 5u, 7u})
         for (const auto& channel : columns.radiance) EXPECT_EQ(channel[dark], 0) << dark;
     for (const auto& channel : columns.radiance) EXPECT_GT(channel[4], 0);
     EXPECT_EQ(lighter.light({}, 0, 16, {}).samples, 0u);  // no points at all
+}
+
+TEST(LightPointsDeathTest, AMaterialThatThereIsNotIsNamedOrCounted)
+{
+    const Hosted host;
+    const ReadyStrategy<float> strategy(host.lit, parse_strategy("power/power"), kernels<float>(),
+                                        1);
+    for (const std::int32_t lie : {-1, 99}) {
+        Columns columns = host.mixed();
+        columns.material[2] = lie;
+        PointLighter lighter(host.lit, strategy);
+        TileTotals totals;
+        totals.invalid = 16;
+        EXPECT_DEBUG_DEATH(totals = lighter.light(columns.points(), 0, 16, columns.out()),
+                           "points.material");
+        EXPECT_EQ(totals.invalid, 16u);
+#ifdef NDEBUG
+        for (const auto& channel : columns.radiance) EXPECT_EQ(channel[2], 0);
+#endif
+    }
 }
 
 }  // namespace

@@ -148,6 +148,36 @@ TEST(LightHierarchy, HidesWhatIsNotTheNearest)
     EXPECT_GT(hidden, scaled(1000));
 }
 
+/// However many rays are under way.
+TEST(LightHierarchy, AnswersManyRaysAsOneAfterTheOther)
+{
+    const LightCase c = cases()[2];
+    const LightHierarchy hierarchy(c.lights);
+    Uniforms uniforms(54);
+    for (std::size_t count : {0, 1, 2, 3, 4, 5, 9, 200}) {
+        std::vector<LightHierarchy::Ray> rays;
+        std::vector<LightHit> nearest(count), hits;
+        std::vector<int> hidden(count, -1);
+        for (std::size_t i = 0; i < count; ++i) {
+            rays.push_back({Vec3<double>(0, 0, 3) + uniforms.in_box(0.5), uniforms.direction()});
+            const std::vector<LightHit> along = all_along(c.lights, rays[i].x, rays[i].wi);
+            hits.push_back(along.empty() ? LightHit{no_light, 9} : along.back());
+        }
+        const auto ray_of = [&](std::size_t i) { return rays[i]; };
+        hierarchy.nearest_each(count, ray_of,
+                               [&](std::size_t i, const LightHit& hit) { nearest[i] = hit; });
+        hierarchy.hides_each(
+            count, ray_of, [&](std::size_t i, const auto&) { return hits[i]; },
+            [&](std::size_t i, bool is_hidden) { hidden[i] = is_hidden ? 1 : 0; });
+        for (std::size_t i = 0; i < count; ++i) {
+            const LightHit one = hierarchy.nearest(rays[i].x, rays[i].wi);
+            EXPECT_EQ(nearest[i].light, one.light) << i << " of " << count;
+            EXPECT_EQ(nearest[i].distance, one.distance);
+            EXPECT_EQ(hidden[i], hierarchy.hides(rays[i].x, rays[i].wi, hits[i]) ? 1 : 0);
+        }
+    }
+}
+
 TEST(LightHierarchy, ContainsTheInsideAndTheSurface)
 {
     for (const LightCase& c : cases()) {
@@ -176,6 +206,41 @@ TEST(LightHierarchy, OfCoincidentLightsTheOneListedFirstIsNearer)
     EXPECT_FALSE(hierarchy.hides(x, wi, {1, 4}));
     EXPECT_TRUE(hierarchy.hides(x, wi, {2, 4}));
     EXPECT_TRUE(hierarchy.hides(x, wi, {0, 8}));
+}
+
+/// Every third light moves, a little or to where another stood, and takes another size.
+TEST(LightHierarchy, AnswersAsANewOneWhenLightsHaveMoved)
+{
+    for (LightCase& c : cases()) {
+        SCOPED_TRACE(c.name);
+        LightHierarchy hierarchy(c.lights);
+        Uniforms uniforms(53);
+        for (std::size_t j = 0; j < c.lights.size(); j += 3) {
+            const Light before = c.lights[j];
+            const Light& other =
+                c.lights[static_cast<std::size_t>(uniforms.below(int(c.lights.size())))];
+            const Vec3<double> away = uniforms.direction() * (3 * before.radius);
+            const double radius = before.radius * uniforms.log_between(0.5, 2);
+            c.lights[j] = light_at((j % 2 == 0 ? before : other).center + away, radius);
+            hierarchy.refit(static_cast<LightIndex>(j), before);
+        }
+        const LightHierarchy fresh(c.lights);
+        for (int i = 0; i < scaled(3000); ++i) {
+            const Vec3<double> x = c.around + uniforms.in_box(c.extent);
+            ASSERT_EQ(hierarchy.contains(x), inside_of_any(c.lights, x));
+            if (inside_of_any(c.lights, x)) continue;
+            const Light& target = c.lights[static_cast<std::size_t>(
+                uniforms.below(static_cast<int>(c.lights.size())))];
+            const Vec3<double> wi =
+                normalized(target.center + uniforms.direction() * target.radius - x);
+            const LightHit hit = hierarchy.nearest(x, wi), expected = fresh.nearest(x, wi);
+            ASSERT_EQ(hit.light, nearest_of_all(c.lights, x, wi).light);
+            ASSERT_EQ(hit.light, expected.light);
+            ASSERT_EQ(hit.distance, expected.distance);
+            for (const LightHit& along : all_along(c.lights, x, wi))
+                ASSERT_EQ(hierarchy.hides(x, wi, along), fresh.hides(x, wi, along));
+        }
+    }
 }
 
 TEST(LightHierarchy, WithoutLightsMeetsNone)
