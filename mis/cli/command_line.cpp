@@ -179,7 +179,8 @@ void add_render(CLI::App& app, RenderOptions& options)
 {
     CLI::App& c = *app.add_subcommand("render", "a picture by one strategy");
     c.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
-    c.add_option("--strategy", options.strategy, "by name")
+    c.add_option("--strategy", options.strategy,
+                 "by name; or `exact`, the closed form, for scenes that have one at every point")
         ->type_name("NAME")
         ->capture_default_str();
     c.add_option("--out", options.out, "OpenEXR file")->required()->type_name("FILE.exr");

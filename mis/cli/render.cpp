@@ -4,6 +4,7 @@
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
 #include "mis/compare/resolved.h"
+#include "mis/engine/exact.h"
 #include "mis/engine/render.h"
 #include "mis/io/image_exr.h"
 #include "mis/strategy/strategy.h"
@@ -76,19 +77,59 @@ struct Outcome {
     std::optional<int> unlit_from;  ///< first row without samples, where interrupted before them
 };
 
-/// A given number of samples: band by band, so that memory does not grow with the picture.
-Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy, std::uint64_t spp,
-                   Progress& progress)
+Image black_picture(const Camera& camera)
 {
-    constexpr int band_pixels = 1 << 20;
-    const auto [width, height] = ready.scene.camera->resolution;
-    const int band_rows =
-        std::clamp(band_pixels / width / tile_side * tile_side, tile_side, height + tile_side);
-    Outcome outcome;
-    outcome.image = {
+    const auto [width, height] = camera.resolution;
+    return {
         width, height,
         std::vector<Vec3<float>>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                                  Vec3<float>(0.0F))};
+}
+
+/// Rows that are found and lit at a time, so that memory does not grow with the picture.
+int rows_of_band(const Camera& camera)
+{
+    constexpr int band_pixels = 1 << 20;
+    const auto [width, height] = camera.resolution;
+    return std::clamp(band_pixels / width / tile_side * tile_side, tile_side, height + tile_side);
+}
+
+/// The closed form at every point; refused where some have none.
+Outcome render_exactly(const ReadyScene& ready, Progress& progress)
+{
+    Outcome outcome;
+    outcome.image = black_picture(*ready.scene.camera);
+    const int height = outcome.image.height, band_rows = rows_of_band(*ready.scene.camera);
+    ExactShare share;
+    for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
+        Band band = find_band(ready.lit, row, std::min(band_rows, height - row), ready.executor);
+        const ExactShare here = exact_share(ready.lit, band.shading);
+        share.exact += here.exact, share.points += here.points;
+        if (share.is_all()) {
+            light_exactly(ready.lit, band, ready.executor);
+            draw_band(ready.lit, band, outcome.image);
+        }
+        progress.show("rendering", (row + double(band.shading.rows)) / height);
+        outcome.is_partial = interrupt_flag();
+        if (outcome.is_partial) outcome.unlit_from = row + band.shading.rows;
+    }
+    if (!share.is_all())
+        throw UsageError(fmt::format(
+            "--strategy exact: {} of the {} shading points of {} have a closed form, and all "
+            "must: Lambertian surfaces, no surface and no other light before any light\n"
+            "    `mis predict` has exact values of probes on any material.",
+            share.exact, share.points, ready.scene.file));
+    outcome.shading_points = share.points;
+    return outcome;
+}
+
+/// A given number of samples.
+Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy, std::uint64_t spp,
+                   Progress& progress)
+{
+    Outcome outcome;
+    outcome.image = black_picture(*ready.scene.camera);
+    const int height = outcome.image.height, band_rows = rows_of_band(*ready.scene.camera);
     outcome.samples = spp;
     WorkspacePool<float> workspaces;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
@@ -124,14 +165,10 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
                      const StopOptions& stop, bool is_sobol, Progress& progress)
 {
     const auto start = std::chrono::steady_clock::now();
-    const auto [width, height] = ready.scene.camera->resolution;
     Outcome outcome;
-    outcome.image = {
-        width, height,
-        std::vector<Vec3<float>>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                                 Vec3<float>(0.0F))};
+    outcome.image = black_picture(*ready.scene.camera);
     WorkspacePool<float> workspaces;
-    Band band = find_band(ready.lit, 0, height, ready.executor);
+    Band band = find_band(ready.lit, 0, outcome.image.height, ready.executor);
     outcome.shading_points = band.results.size() + band.shading.dark.size();
     int count = 4;
     bool is_done = false;
@@ -171,10 +208,6 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     return outcome;
 }
 
-}  // namespace
-
-namespace {
-
 std::string in_words(const PictureError& error)
 {
     if (error.is_dark())
@@ -195,6 +228,39 @@ std::string interruption(const Outcome& outcome)
                        *outcome.unlit_from);
 }
 
+/// By samples.
+Outcome render_by(const Strategy& strategy, const ReadyScene& ready, const RenderOptions& options,
+                  Progress& progress)
+{
+    const bool is_sobol = options.run.is_sobol();
+    const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(),
+                                        {options.run.seed, is_sobol ? one_scrambling : 0});
+    const StopOptions& stop = options.stop;
+    if (stop.seconds || stop.error) return render_until(ready, prepared, stop, is_sobol, progress);
+    return render_spp(ready, prepared, static_cast<std::uint64_t>(stop.spp.value_or(64)), progress);
+}
+
+/// strategy: none where it is exact.
+void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strategy,
+                   const RenderOptions& options, double seconds)
+{
+    const std::string how =
+        strategy ? fmt::format("{} samples each by {}", outcome.samples, name_of(*strategy))
+                 : "each by its closed form";
+    fmt::print(stderr, "{}: {} x {} pixels, {} shading points, {}, {:.2f} s{}\n", options.out,
+               outcome.image.width, outcome.image.height, outcome.shading_points, how, seconds,
+               interruption(outcome));
+    const bool is_sobol = strategy && options.run.is_sobol();
+    if (outcome.error)
+        fmt::print(stderr, "{}{}\n", in_words(*outcome.error),
+                   is_sobol ? ", were its samples independent" : "");
+    if (is_sobol && !std::has_single_bit(outcome.samples) && !outcome.is_partial)
+        fmt::print(stderr, "{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
+                   outcome.samples);
+    if (outcome.invalid > 0)
+        fmt::print(stderr, "{} samples were not finite and count as 0\n", outcome.invalid);
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options)
@@ -205,48 +271,34 @@ int run_render(const RenderOptions& options)
             "--out: found \"{}\"; the picture is an OpenEXR file: its name ends in .exr",
             options.out));
     check_output_file("--out", options.out);
-    const Strategy strategy = parse_strategy(options.strategy);
+    const bool is_exact = options.strategy == "exact";
+    const StopOptions& stop = options.stop;
+    if (is_exact && (stop.spp || stop.seconds || stop.error))
+        throw UsageError("--strategy exact: it takes no samples; leave out --spp, --time, --error");
+    if (is_exact && options.run.effects == "all")
+        throw UsageError("--strategy exact: it needs the proofs of --effects auto");
+    const std::optional<Strategy> strategy =
+        is_exact ? std::nullopt : std::optional(parse_strategy(options.strategy));
     const ReadyScene ready(options.scene, options.run);
     if (!ready.scene.camera)
         throw UsageError(options.scene + ": found no camera; a picture needs one");
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
     const auto start = std::chrono::steady_clock::now();
-    const bool is_sobol = options.run.is_sobol();
-    const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(),
-                                        {options.run.seed, is_sobol ? one_scrambling : 0});
-    const StopOptions& stop = options.stop;
     const Outcome outcome =
-        stop.seconds || stop.error
-            ? render_until(ready, prepared, stop, is_sobol, progress)
-            : render_spp(ready, prepared, static_cast<std::uint64_t>(stop.spp.value_or(64)),
-                         progress);
+        strategy ? render_by(*strategy, ready, options, progress) : render_exactly(ready, progress);
     progress.clear();
     if (outcome.shading_points == 0 && !outcome.is_partial)
         throw UsageError(no_points_message(ready.scene));
     write_exr(options.out, outcome.image,
               {{"Software", std::string("mis ") + MIS_VERSION},
                {"mis/command", options.run.command_line},
-               {"mis/strategy", name_of(strategy)},
+               {"mis/strategy", strategy ? name_of(*strategy) : "exact"},
                {"mis/seed", std::to_string(options.run.seed)},
                {"mis/sampler", options.run.sampler},
                {"mis/samples_per_point", std::to_string(outcome.samples)},
                {"mis/partial", outcome.is_partial ? "true" : "false"}});
-    if (!options.run.quiet) {
-        fmt::print(stderr,
-                   "{}: {} x {} pixels, {} shading points, {} samples each by {}, {:.2f} s{}\n",
-                   options.out, outcome.image.width, outcome.image.height, outcome.shading_points,
-                   outcome.samples, name_of(strategy), seconds_since(start), interruption(outcome));
-        if (outcome.error)
-            fmt::print(stderr, "{}{}\n", in_words(*outcome.error),
-                       is_sobol ? ", were its samples independent" : "");
-        if (is_sobol && !std::has_single_bit(outcome.samples) && !outcome.is_partial)
-            fmt::print(stderr,
-                       "{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
-                       outcome.samples);
-        if (outcome.invalid > 0)
-            fmt::print(stderr, "{} samples were not finite and count as 0\n", outcome.invalid);
-    }
+    if (!options.run.quiet) print_outcome(outcome, strategy, options, seconds_since(start));
     return outcome.is_partial ? interrupted : ok;
 }
 

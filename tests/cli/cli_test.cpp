@@ -95,6 +95,9 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"integrate --json /no/such/x.json", "there is no folder"},
         BadLine{"render VEACH --out /no/such/x.exr", "there is no folder"},
         BadLine{"render VEACH --strategy brdff --out x.exr", "Did you mean \"brdf\""},
+        BadLine{"render VEACH --strategy exact --out x.exr", "have a closed form, and all must"},
+        BadLine{"render VEACH --strategy exact --spp 4 --out x.exr", "takes no samples"},
+        BadLine{"render VEACH --strategy exact --effects all --out x.exr", "--effects auto"},
         BadLine{"cost", "scene is required"},
         BadLine{"cost VEACH --strategy powr/power", "Did you mean \"power\""},
         BadLine{"cost VEACH --precision half", "--precision: found \"half\""},
@@ -293,6 +296,17 @@ TEST(CommandLine, RendersAPictureOrNothing)
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / ""))
         ++files;
     EXPECT_EQ(files, 1U);
+}
+
+TEST(CommandLine, RendersTheClosedFormWhereThereIsOne)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "exact.exr").string();
+    const Outcome run = mis_with("render '" + scene("single") +
+                                 "' --resolution 48x32 --strategy exact --out '" + file + "'");
+    EXPECT_EQ(run.exit, 0) << run.error;
+    EXPECT_NE(run.error.find("each by its closed form"), std::string::npos) << run.error;
+    EXPECT_TRUE(std::filesystem::exists(file));
 }
 
 TEST(CommandLine, FailsWithExitCode1OnAFullDisk)

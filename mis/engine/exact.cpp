@@ -1,0 +1,72 @@
+#include "mis/engine/exact.h"
+
+#include "mis/bsdf/lambert.h"
+#include "mis/math/irradiance.h"
+
+#include <algorithm>
+
+namespace mis {
+
+namespace {
+
+const Material& material_of(const LitScene& scene, const Tile& tile)
+{
+    return scene.scene().materials[static_cast<std::size_t>(tile.material)];
+}
+
+/// Can no light stand before another one that is above the horizon?
+bool is_unhidden(const LitScene& scene, const TilePlan& plan)
+{
+    if (!plan.light_occlusion) return true;
+    if (plan.blockers == nullptr) return false;
+    for (LightIndex j = 0; j < static_cast<LightIndex>(scene.scene().lights.size()); ++j) {
+        const auto proofs = plan.lights.empty() ? 0 : plan.lights[static_cast<std::size_t>(j)];
+        if ((proofs & (below | unhidden)) != 0) continue;
+        const auto others = plan.blockers->before(j);
+        if (!others || !others->empty()) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+bool has_closed_form(const LitScene& scene, const Tile& tile)
+{
+    return material_of(scene, tile).type == Lambert::name && !tile.plan.shadows &&
+           is_unhidden(scene, tile.plan);
+}
+
+Vec3<double> exact_radiance(const LitScene& scene, const Tile& tile, const ShadingPoint& point)
+{
+    const auto n = vec_cast<double>(point.n), up = Vec3<double>{0, 0, 1};
+    Vec3<double> sum(0);
+    for (const Light& light : scene.scene().lights) {
+        const Cap<double> cap = cap_of_sphere(light.center, light.radius, point.x);
+        // One sine at a time: a radius of 1e-20 has no square.
+        const double over_sine = cap.sin_max * irradiance_over_sin2(tilted(cap, n));
+        sum += vec_cast<double>(light.radiance_radius) / cap.distance * over_sine;
+    }
+    return sum * Lambert(material_of(scene, tile)).evaluate<double>(up, up).f;
+}
+
+ExactShare exact_share(const LitScene& scene, const GBuffer& shading)
+{
+    ExactShare share{shading.dark.size(), shading.dark.size() + shading.points.size()};
+    for (const Tile& tile : shading.tiles)
+        if (has_closed_form(scene, tile)) share.exact += tile.count;
+    return share;
+}
+
+void light_exactly(const LitScene& scene, Band& band, const AnyExecutor& executor)
+{
+    executor.for_each(band.shading.tiles.size(), [&](std::size_t t) {
+        const Tile& tile = band.shading.tiles[t];
+        for (std::size_t p = tile.first; p < std::size_t{tile.first} + tile.count; ++p) {
+            PointResult& result = band.results[p];
+            result.radiance_sum = exact_radiance(scene, tile, band.shading.points[p]);
+            result.luminance = {.count = 1, .mean = luminance(result.radiance_sum)};
+        }
+    });
+}
+
+}  // namespace mis

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "mis/engine/render.h"
+
+namespace mis {
+
+/// Has direct light a closed form at every point of a tile? So it is on a Lambertian material where
+/// the tile's plan proves that nothing stands before any light.
+bool has_closed_form(const LitScene& scene, const Tile& tile);
+
+/// Radiance towards the viewer at a point of such a tile, in double: the sum over the lights of f L
+/// E, the horizon's cut included (math/irradiance.h; docs/theory.md, eqs. 48 to 51).
+Vec3<double> exact_radiance(const LitScene& scene, const Tile& tile, const ShadingPoint& point);
+
+/// Of some points, how many stand in tiles that have a closed form; dark points are 0, and count.
+struct ExactShare {
+    std::size_t exact = 0, points = 0;
+    bool is_all() const { return exact == points; }
+};
+ExactShare exact_share(const LitScene& scene, const GBuffer& shading);
+
+/// Every shading point of a band by its closed form, which they all must have.
+void light_exactly(const LitScene& scene, Band& band, const AnyExecutor& executor);
+
+}  // namespace mis
