@@ -8,6 +8,7 @@ usage() {
 ./do COMMAND …     builds mis where needed and runs `mis COMMAND …`; try ./do compare scenes/veach.json
 ./do test …        builds and runs the tests; … goes to ctest (-R NAME, -V)
 ./do bench …       measures every bar of docs/performance.md; --quick, --out FILE, --benchmark_filter=REGEX, …
+./do which-light   measures every figure of docs/which-light.md anew, in ten minutes (--quick: soon and rough, to build)
 ./do fuzz SECONDS  lets libFuzzer loose on each reader of files for so long (600)
 ./do docs          what is public as HTML, in build/docs/html
 ./do format        formats the sources; ./do format --check only says what it would change
@@ -108,6 +109,11 @@ case ${1-} in
         [[ -x $root/build/release/bin/mis_bench ]] || fail "the benchmarks need Embree, oneTBB and the io packages"
         say "some minutes; all figures go to build/bench.json"
         "$root/build/release/bin/mis_bench" --out "$root/build/bench.json" "${@:2}"
+        ;;
+    which-light)
+        command -v python3 >/dev/null || fail "which-light needs Python 3: apt-get install python3"
+        build mis_program
+        exec python3 "$root/docs/which_light.py" "${@:2}"
         ;;
     fuzz)
         need_packages build ci
