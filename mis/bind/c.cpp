@@ -14,20 +14,32 @@
 
 using namespace mis;  // NOLINT: what this file binds
 
-/// The lights under one strategy, whatever its types.
+namespace {
+
+/// One sample of a strategy, compiled for its heuristic and technique.
+using Sampler = DirectSample<float>(const AnyDirectPoint<float>&, const Strategy&, const mis_bsdf&,
+                                    const mis_rays&, const mis_random&);
+
+}  // namespace
+
+/// The lights under one strategy, whatever its policy.
 struct mis_lights {
+    Strategy strategy;
+    Sampler* sampler;
+    mis_lights(Strategy parsed, Sampler* found) : strategy(std::move(parsed)), sampler(found) {}
     virtual ~mis_lights() = default;
     virtual void assign(Lights lights) = 0;
+    virtual std::size_t count() const = 0;
+    virtual void replace(LightIndex index, const Light& light) = 0;
     virtual std::unique_ptr<mis_point> point() const = 0;
 };
 
 struct mis_point {
+    const mis_lights* among;
+    explicit mis_point(const mis_lights& lights) : among(&lights) {}
     virtual ~mis_point() = default;
-    virtual bool move_to(const Vec3<double>& x, const Vec3<float>& n) = 0;
-    virtual Choice choose(std::uint64_t bits) const = 0;
-    virtual double probability(LightIndex j) const = 0;
-    virtual DirectSample<float> sample(const mis_bsdf& bsdf, const mis_rays& rays,
-                                       const mis_random& random) const = 0;
+    virtual void move_to(const Vec3<double>& x, const Vec3<float>& n) = 0;
+    virtual AnyDirectPoint<float> view() const = 0;
 };
 
 namespace {
@@ -62,75 +74,77 @@ DirectNumbers<float> direct_numbers(const mis_numbers& u)
     return {u.choice, {u.cap[0], u.cap[1]}, u.lobe, {u.bsdf[0], u.bsdf[1]}};
 }
 
-template <class Policy, class Heuristic, class Technique>
-class BoundPoint final : public mis_point {
+template <class Heuristic, class Technique>
+DirectSample<float> sample_by(const AnyDirectPoint<float>& point, const Strategy& strategy,
+                              const mis_bsdf& bsdf, const mis_rays& rays, const mis_random& random)
+{
+    const CalledBsdf called{&bsdf};
+    const auto is_occluded = [&](const Vec3<float>& wi, float distance) {
+        return rays.is_occluded(rays.self, &wi.x, distance) != 0;
+    };
+    if (strategy.model == Model::one_sample) {
+        const mis_numbers u = numbers_of(random, 0);
+        return sample_direct_once<Heuristic, Technique>(point, called, is_occluded, u.technique,
+                                                        direct_numbers(u));
+    }
+    const auto numbers = [&](int draw) { return direct_numbers(numbers_of(random, draw)); };
+    return sample_direct<Heuristic, Technique>(point, called, is_occluded, numbers,
+                                               strategy.counts[0], strategy.counts[1]);
+}
+
+Sampler* sampler_of(const Strategy& strategy)
+{
+    Sampler* found = nullptr;
+    for_each_type(Heuristics{}, [&]<class Heuristic>() {
+        if (Heuristic::name != strategy.heuristic) return;
+        for_each_type(Techniques{}, [&]<class Technique>() {
+            if constexpr (Technique::chooses_light)
+                if (Technique::name == strategy.technique) found = sample_by<Heuristic, Technique>;
+        });
+    });
+    return found;
+}
+
+template <class Policy> class BoundPoint final : public mis_point {
 public:
-    BoundPoint(const DirectLights<Policy>& lights, const Strategy& strategy)
-        : strategy_(&strategy), point_(lights)
+    BoundPoint(const mis_lights& bound, const DirectLights<Policy>& lights)
+        : mis_point(bound), point_(lights)
     {
     }
-    bool move_to(const Vec3<double>& x, const Vec3<float>& n) override
-    {
-        point_.move_to(x, n);
-        return point_.is_lit();
-    }
-    Choice choose(std::uint64_t bits) const override { return point_.choose(bits); }
-    double probability(LightIndex j) const override { return point_.probability(j); }
-    DirectSample<float> sample(const mis_bsdf& bsdf, const mis_rays& rays,
-                               const mis_random& random) const override
-    {
-        const CalledBsdf called{&bsdf};
-        const auto is_occluded = [&](const Vec3<float>& wi, float distance) {
-            return rays.is_occluded(rays.self, &wi.x, distance) != 0;
-        };
-        if constexpr (!Policy::draws_every_light)
-            if (strategy_->model == Model::one_sample) {
-                const mis_numbers u = numbers_of(random, 0);
-                return sample_direct_once<Heuristic, Technique>(point_, called, is_occluded,
-                                                                u.technique, direct_numbers(u));
-            }
-        const auto numbers = [&](int draw) { return direct_numbers(numbers_of(random, draw)); };
-        return sample_direct<Heuristic, Technique>(point_, called, is_occluded, numbers,
-                                                   strategy_->counts[0], strategy_->counts[1]);
-    }
+    void move_to(const Vec3<double>& x, const Vec3<float>& n) override { point_.move_to(x, n); }
+    AnyDirectPoint<float> view() const override { return AnyDirectPoint<float>(point_); }
 
 private:
-    const Strategy* strategy_;
     DirectPoint<Policy> point_;
 };
 
-template <class Policy, class Heuristic, class Technique>
-class BoundLights final : public mis_lights {
+template <class Policy> class BoundLights final : public mis_lights {
 public:
-    BoundLights(Strategy strategy, Lights lights)
-        : strategy_(std::move(strategy)), lights_(std::move(lights))
+    BoundLights(const Strategy& parsed, Sampler* found, Lights lights)
+        : mis_lights(parsed, found), lights_(std::move(lights))
     {
     }
     void assign(Lights lights) override { lights_.assign(std::move(lights)); }
+    std::size_t count() const override { return lights_.lights().size(); }
+    void replace(LightIndex index, const Light& light) override { lights_.replace(index, light); }
     std::unique_ptr<mis_point> point() const override
     {
-        return std::make_unique<BoundPoint<Policy, Heuristic, Technique>>(lights_, strategy_);
+        return std::make_unique<BoundPoint<Policy>>(*this, lights_);
     }
 
 private:
-    Strategy strategy_;
     DirectLights<Policy> lights_;
 };
 
+/// nullptr for a strategy that chooses no light.
 std::unique_ptr<mis_lights> bound(const Strategy& strategy, Lights lights)
 {
     std::unique_ptr<mis_lights> made;
+    Sampler* sampler = sampler_of(strategy);
+    if (sampler == nullptr) return made;
     for_each_type(Policies{}, [&]<class Policy>() {
-        if (Policy::name != strategy.policy) return;
-        for_each_type(Heuristics{}, [&]<class Heuristic>() {
-            if (Heuristic::name != strategy.heuristic) return;
-            for_each_type(Techniques{}, [&]<class Technique>() {
-                if constexpr (Technique::chooses_light)
-                    if (Technique::name == strategy.technique)
-                        made = std::make_unique<BoundLights<Policy, Heuristic, Technique>>(
-                            strategy, std::move(lights));
-            });
-        });
+        if (Policy::name == strategy.policy)
+            made = std::make_unique<BoundLights<Policy>>(strategy, sampler, std::move(lights));
     });
     return made;
 }
@@ -190,8 +204,7 @@ mis_status mis_lights_create(const char* strategy, const mis_light* lights, size
             status != MIS_OK)
             return status;
         const Strategy parsed = parse_strategy(strategy);
-        std::unique_ptr<mis_lights> made;
-        if (parsed.chooses_light()) made = bound(parsed, std::move(read));
+        std::unique_ptr<mis_lights> made = bound(parsed, std::move(read));
         if (!made) {
             say(std::string("\"") + strategy + "\" chooses no light: it is the host's own draw",
                 message, capacity);
@@ -222,6 +235,21 @@ mis_status mis_lights_assign(mis_lights* lights, const mis_light* list, size_t c
     }
 }
 
+mis_status mis_lights_replace(mis_lights* lights, size_t index, const mis_light* light,
+                              char* message, size_t capacity)
+{
+    if (lights == nullptr || light == nullptr || index >= lights->count()) return MIS_BAD_ARGUMENT;
+    say("", message, capacity);
+    try {
+        Lights read;
+        const mis_status status = read_lights(light, 1, read, message, capacity);
+        if (status == MIS_OK) lights->replace(static_cast<LightIndex>(index), read.front());
+        return status;
+    } catch (const std::bad_alloc&) {
+        return MIS_NO_MEMORY;
+    }
+}
+
 void mis_lights_destroy(mis_lights* lights) { delete lights; }
 
 mis_status mis_point_create(const mis_lights* lights, mis_point** out)
@@ -240,25 +268,27 @@ void mis_point_destroy(mis_point* point) { delete point; }
 
 int mis_point_move_to(mis_point* point, const double x[3], const float n[3])
 {
-    return point->move_to({x[0], x[1], x[2]}, {n[0], n[1], n[2]}) ? 1 : 0;
+    point->move_to({x[0], x[1], x[2]}, {n[0], n[1], n[2]});
+    return point->view().is_lit() ? 1 : 0;
 }
 
 int32_t mis_point_choose(const mis_point* point, uint64_t bits, double* probability)
 {
-    const Choice choice = point->choose(bits);
+    const Choice choice = point->view().choose(bits);
     if (probability != nullptr) *probability = choice.probability;
     return choice.light;
 }
 
 double mis_point_probability(const mis_point* point, int32_t light)
 {
-    return point->probability(light);
+    return point->view().probability(light);
 }
 
 int mis_point_sample(const mis_point* point, const mis_bsdf* bsdf, const mis_rays* rays,
                      const mis_random* random, float radiance[3])
 {
-    const DirectSample<float> sample = point->sample(*bsdf, *rays, *random);
+    const DirectSample<float> sample =
+        point->among->sampler(point->view(), point->among->strategy, *bsdf, *rays, *random);
     radiance[0] = sample.radiance.x, radiance[1] = sample.radiance.y,
     radiance[2] = sample.radiance.z;
     return sample.invalid;

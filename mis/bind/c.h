@@ -78,6 +78,10 @@ mis_status mis_lights_create(const char* strategy, const mis_light* lights, size
 /** Other lights. On failure the old ones stay. Points made before take it in by their next move. */
 mis_status mis_lights_assign(mis_lights* lights, const mis_light* list, size_t count, char* message,
                              size_t capacity);
+/** Another light in the place of light `index`; what it costs: docs/embedding.md, "Lights that
+ * change". On failure the old one stays. Points made before take it in by their next move. */
+mis_status mis_lights_replace(mis_lights* lights, size_t index, const mis_light* light,
+                              char* message, size_t capacity);
 /** After its points. */
 void mis_lights_destroy(mis_lights* lights);
 

@@ -170,19 +170,22 @@ void bind_figures(py::module_& m)
         "samples",
         [](const ReadyScene& scene, const std::string& strategy, std::int64_t count,
            std::optional<std::int64_t> probe, std::optional<std::array<std::int64_t, 2>> pixel,
-           std::int64_t first, std::uint64_t seed, int threads) {
+           std::int64_t first, std::uint64_t seed, const std::string& sampler, int threads) {
             if (probe && pixel)
                 throw ArgumentError("probe and pixel: found both; name one of them");
             const Place place = pixel ? Place(*pixel) : Place(probe.value_or(0));
             auto values = without_gil([&] {
-                return samples(scene, strategy, place, count, first, run_of(seed, threads));
+                return samples(scene, strategy, place, count, first, sampler,
+                               run_of(seed, threads));
             });
             return array_of<double>(std::move(values), {static_cast<py::ssize_t>(count)});
         },
         "scene"_a, "strategy"_a, "count"_a, py::kw_only(), "probe"_a = py::none(),
-        "pixel"_a = py::none(), "first"_a = 0, "seed"_a = 1, "threads"_a = 0, R"(
+        "pixel"_a = py::none(), "first"_a = 0, "seed"_a = 1, "sampler"_a = "independent",
+        "threads"_a = 0, R"(
 Single samples at one shading point: float64 array (count,) of luminances, W/(sr m²), of the
 samples numbered from `first` on. Sample k is the same whatever count and threads are.
+sampler: "independent" or "sobol", one scrambling.
 probe: its number in the scene (0 where nothing is said); or pixel: (column, row) from the top left.
 All are 0 where no light can be seen. Raises StrategyError and ValueError.)");
 
@@ -190,8 +193,9 @@ All are 0 where no light can be seen. Raises StrategyError and ValueError.)");
         "compare",
         [](const ReadyScene& scene, const std::vector<std::string>& strategies,
            std::optional<std::int64_t> spp, std::optional<double> seconds,
-           std::optional<double> error, double at, std::uint64_t seed, int threads) {
-            const CompareOptions options{spp, seconds, error, at};
+           std::optional<double> error, double at, std::uint64_t seed, const std::string& sampler,
+           int threads) {
+            const CompareOptions options{spp, seconds, error, at, sampler};
             const std::string text = without_gil([&] {
                 Report report = compare(scene, strategies, options, run_of(seed, threads));
                 report.command = "mis.compare";
@@ -200,11 +204,13 @@ All are 0 where no light can be seen. Raises StrategyError and ValueError.)");
             return py::module_::import("json").attr("loads")(text).cast<py::dict>();
         },
         "scene"_a, "strategies"_a, py::kw_only(), "spp"_a = py::none(), "seconds"_a = py::none(),
-        "error"_a = py::none(), "at"_a = 16.0, "seed"_a = 1, "threads"_a = 0, R"(
+        "error"_a = py::none(), "at"_a = 16.0, "seed"_a = 1, "sampler"_a = "independent",
+        "threads"_a = 0, R"(
 Ranks strategies by variance and by efficiency: the dict of mis-report/1 (docs/report-format.md),
 as `mis compare --json` writes it.
 Until settled or 30 s; or for `spp` samples per point, `seconds` of wall time, or until every
 ranked variance is known to ± `error` (a share). at: samples per point that efficiency is for.
+sampler: "independent"; or "sobol", which measures variances over scramblings of `at` samples each.
 Raises StrategyError and ValueError.)");
 
     m.def(

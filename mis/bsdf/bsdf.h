@@ -7,6 +7,7 @@
 #include <cmath>
 #include <concepts>
 #include <string_view>
+#include <type_traits>
 
 namespace mis {
 
@@ -26,12 +27,14 @@ struct LobeExtent {
 /// How a surface scatters. Directions are unit vectors in the shading frame (z is the normal), away
 /// from the point, with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a
 /// wi with wi.z ≤ 0 is a lost draw, which contributes 0 and is not redrawn, so ∫pdf over the
-/// hemisphere + P(lost) = 1. draws(): false where all is black.
+/// hemisphere + P(lost) = 1. draws(): false where all is black. has_lobe: false where no material
+/// has one, whatever it says.
 // clang-format off
 template <class B, class T>
 concept Bsdf = std::constructible_from<B, const Material&> &&
     requires(const B& bsdf, const Vec3<T>& w, const T& lobe, const Vec2<T>& u) {
     { B::name } -> std::convertible_to<std::string_view>;
+    { B::has_lobe } -> std::convertible_to<bool>;
     { bsdf.evaluate(w, w) } -> std::same_as<BsdfValue<T>>;
     { bsdf.sample(w, lobe, u) } -> std::same_as<Vec3<T>>;
     { bsdf.draws() } -> std::same_as<bool>;
@@ -86,6 +89,8 @@ inline double specular_share(const Material& material, double specular, double d
 /// A BSDF of a diffuse lobe and a lobe cos^m θ_h about the half vector:
 /// f = diffuse + specular · cos^m θ_h, drawn from the lobe with probability s.
 struct HalfVectorBsdf {
+    static constexpr bool has_lobe = true;
+
     Vec3<double> diffuse, specular;  ///< sr⁻¹
     double m, s;
 
@@ -115,5 +120,10 @@ struct HalfVectorBsdf {
                 strength > 0 ? 2 * pi<double> / (m + 1) : 0};
     }
 };
+
+/// What of B is evaluated and drawn. BSDFs by the half vector differ in what they make of a
+/// material alone: kernels know one type for all of them.
+template <class B>
+using FormulaOf = std::conditional_t<std::is_base_of_v<HalfVectorBsdf, B>, HalfVectorBsdf, B>;
 
 }  // namespace mis

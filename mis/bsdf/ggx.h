@@ -10,6 +10,7 @@ namespace mis {
 class Ggx {
 public:
     static constexpr std::string_view name = "ggx";
+    static constexpr bool has_lobe = true;
     explicit Ggx(const Material& material)
         : diffuse_(material.diffuse / pi<double>), f0_(material.specular), alpha_(material.alpha),
           s_(specular_share(material, specular_weight(material), luminance(material.diffuse)))

@@ -8,6 +8,7 @@ namespace mis {
 class Lambert {
 public:
     static constexpr std::string_view name = "lambert";
+    static constexpr bool has_lobe = false;
     explicit Lambert(const Material& material) : f_(material.diffuse / pi<double>) {}
 
     template <class T> MIS_INLINE BsdfValue<T> evaluate(const Vec3<T>&, const Vec3<T>& wi) const

@@ -5,9 +5,11 @@
 #include "mis/technique/technique.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 
 namespace mis {
 
@@ -33,6 +35,15 @@ concept HostBsdf = requires(const B& bsdf, const Vec3<T>& wi, const T& lobe, con
 template <class O, class T>
 concept Occluder = requires(const O& is_occluded, const Vec3<T>& wi, const T& distance) {
     { is_occluded(wi, distance) } -> std::convertible_to<bool>;
+};
+
+/// A point under a policy: a DirectPoint, or an AnyDirectPoint.
+template <class P, class T>
+concept ChoosingPoint = std::derived_from<P, PointAmidLights<T>> &&
+    requires(const P& point, std::uint64_t bits, LightIndex j) {
+    { point.draws_every_light() } -> std::same_as<bool>;
+    { point.choose(bits) } -> std::same_as<Choice>;
+    { point.probability(j) } -> std::same_as<double>;
 };
 // clang-format on
 
@@ -62,8 +73,12 @@ template <class T> struct DirectDraw {
     T weight = 0;                 ///< of the heuristic
 };
 
+/// What a draw is worth where the host's answers make no sense (a direction or a density that is no
+/// number, a density below 0): no number, which DirectSample counts.
+template <class T> Vec3<T> no_radiance() { return Vec3<T>(std::numeric_limits<T>::quiet_NaN()); }
+
 /// The estimate of one sample. invalid: draws that were not finite (a BSDF that says NaN); they
-/// count as 0.
+/// count as 0. At a point that is nowhere (NaN) it is 1.
 template <class T> struct DirectSample {
     Vec3<T> radiance{0};  ///< RGB, W·sr⁻¹·m⁻²
     int invalid = 0;      ///< draws
@@ -84,40 +99,43 @@ struct LightsAlong {
 };
 
 /// own: a light that the direction was drawn towards and therefore meets, or no_light.
-template <class Policy, class T>
-LightsAlong lights_along(const DirectPoint<Policy, T>& point, const Vec3<double>& wi,
-                         const LightHit& own)
+template <class Point>
+LightsAlong lights_along(const Point& point, const Vec3<double>& wi, const LightHit& own)
 {
     const auto pdf_of = [&](LightIndex j) {
-        const Light& light = point.lights().lights()[static_cast<std::size_t>(j)];
+        const Light& light = point.light(j);
         return point.probability(j) /
                cap_of_sphere(light.center, light.radius, point.x()).solid_angle();
     };
     LightsAlong along{own, own.light >= 0 ? pdf_of(own.light) : 0};
-    point.lights().hierarchy().for_each_along(point.x(), wi, [&](const LightHit& hit) {
+    point.hierarchy().for_each_along(point.x(), wi, [&](const LightHit& hit) {
         if (hit.light == own.light) return;
         along.pdf += pdf_of(hit.light);
-        const double d = along.nearest.distance;
-        if (hit.distance < d || (hit.distance == d && hit.light < along.nearest.light))
-            along.nearest = hit;
+        if (stands_before(hit, along.nearest)) along.nearest = hit;
     });
     return along;
 }
 
 /// A draw towards a light that was chosen with some probability.
-template <class Heuristic, class Technique, class Policy, class T>
-DirectDraw<T> draw_towards(const DirectPoint<Policy, T>& point, const HostBsdf<T> auto& bsdf,
-                           const Occluder<T> auto& is_occluded, const Choice& choice,
-                           const Vec2<T>& u, const DirectCounts<T>& counts)
+template <class Heuristic, class Technique, class Point, class T = typename Point::Number>
+requires ChoosingPoint<Point, T> DirectDraw<T> draw_towards(const Point& point,
+                                                            const HostBsdf<T> auto& bsdf,
+                                                            const Occluder<T> auto& is_occluded,
+                                                            const Choice& choice, const Vec2<T>& u,
+                                                            const DirectCounts<T>& counts)
 {
     DirectDraw<T> result;
     if (choice.light < 0 || !(choice.probability > 0)) return result;
-    const Light& light = point.lights().lights()[static_cast<std::size_t>(choice.light)];
+    const Light& light = point.light(choice.light);
     const Cap<T> cap = point.cap(choice.light);
+    assert(!(u.x < 0 || u.x >= 1 || u.y < 0 || u.y >= 1) && "numbers.cap: in [0, 1)");
     const CapDraw<T> draw = Technique::draw(cap, point.n(), u);
     const T cos_theta = dot(point.n(), draw.wi);
     result.wi = draw.wi, result.light = choice.light, result.distance = draw.distance;
-    if (!(cos_theta > 0)) return result;
+    if (!(cos_theta > 0)) {
+        if (std::isnan(cos_theta)) result.radiance = no_radiance<T>();
+        return result;
+    }
 
     const T inverse_pdf_over_sin = cap.sin_max * draw.inverse_pdf_sin2;
     const T probability = static_cast<T>(choice.probability);
@@ -136,42 +154,61 @@ DirectDraw<T> draw_towards(const DirectPoint<Policy, T>& point, const HostBsdf<T
         const double share = choice.probability / (solid_angle * along.pdf);
         result.light_pdf /= static_cast<T>(share);
         if (along.nearest.light != choice.light) {
-            const auto j = static_cast<std::size_t>(along.nearest.light);
-            radiance_over_pdf = vec_cast<T>(radiance(point.lights().lights()[j]) * solid_angle);
+            radiance_over_pdf =
+                vec_cast<T>(radiance(point.light(along.nearest.light)) * solid_angle);
             result.light = along.nearest.light;
             result.distance = static_cast<T>(along.nearest.distance);
         }
         radiance_over_pdf *= static_cast<T>(share);
     }
     result.bsdf_pdf = static_cast<T>(bsdf.pdf(draw.wi));
+    assert(!(result.bsdf_pdf < 0) && "bsdf.pdf: not negative");
+    if (!(result.bsdf_pdf >= 0)) {
+        result.radiance = no_radiance<T>();
+        return result;
+    }
     result.weight = Heuristic::weight(
         std::array<T, 2>{counts.light * result.light_pdf, counts.bsdf * result.bsdf_pdf}, 0);
     const Vec3<T> share = Vec3<T>(bsdf.evaluate(draw.wi)) * cos_theta * radiance_over_pdf *
                           (result.weight / (counts.light * probability));
     if (share == Vec3<T>(0)) return result;
     if constexpr (!Technique::sums_lights)
-        if (point.lights().hierarchy().hides(point.x(), exact_wi, own)) return result;
+        if (point.hierarchy().hides(point.x(), exact_wi, own)) return result;
     if (!is_occluded(draw.wi, result.distance)) result.radiance = share;
     return result;
 }
 
 /// A draw of the BSDF, which may meet a light.
-template <class Heuristic, class Technique, class Policy, class T>
-DirectDraw<T> draw_bsdf(const DirectPoint<Policy, T>& point, const HostBsdf<T> auto& bsdf,
-                        const Occluder<T> auto& is_occluded, const T& lobe, const Vec2<T>& u,
-                        const DirectCounts<T>& counts)
+template <class Heuristic, class Technique, class Point, class T = typename Point::Number>
+requires ChoosingPoint<Point, T> DirectDraw<T> draw_bsdf(const Point& point,
+                                                         const HostBsdf<T> auto& bsdf,
+                                                         const Occluder<T> auto& is_occluded,
+                                                         const T& lobe, const Vec2<T>& u,
+                                                         const DirectCounts<T>& counts)
 {
     DirectDraw<T> result;
     if (!point.is_lit()) return result;
     result.wi = bsdf.sample(lobe, u);
     const T cos_theta = dot(point.n(), result.wi);
-    if (!(cos_theta > 0)) return result;
+    if (!(cos_theta > 0)) {
+        if (std::isnan(cos_theta)) result.radiance = no_radiance<T>();
+        return result;
+    }
+    assert(std::abs(dot(result.wi, result.wi) - 1) < T(1e-3) && "bsdf.sample: a unit vector");
+    if (!std::isfinite(cos_theta)) {
+        result.radiance = no_radiance<T>();
+        return result;
+    }
     const Vec3<double> wi = normalized(vec_cast<double>(result.wi));
-    const LightHit hit = point.lights().hierarchy().nearest(point.x(), wi);
+    const LightHit hit = point.hierarchy().nearest(point.x(), wi);
     if (hit.light < 0) return result;
     result.light = hit.light, result.distance = static_cast<T>(hit.distance);
     result.bsdf_pdf = static_cast<T>(bsdf.pdf(result.wi));
-    if (!(result.bsdf_pdf > 0)) return result;
+    assert(!(result.bsdf_pdf < 0) && "bsdf.pdf: not negative");
+    if (!(result.bsdf_pdf > 0)) {
+        if (result.bsdf_pdf != 0) result.radiance = no_radiance<T>();
+        return result;
+    }
 
     if constexpr (Technique::sums_lights)
         result.light_pdf = static_cast<T>(lights_along(point, wi, {}).pdf);
@@ -180,7 +217,7 @@ DirectDraw<T> draw_bsdf(const DirectPoint<Policy, T>& point, const HostBsdf<T> a
                            Technique::pdf(point.cap(hit.light), point.n(), cos_theta);
     result.weight = Heuristic::weight(
         std::array<T, 2>{counts.light * result.light_pdf, counts.bsdf * result.bsdf_pdf}, 1);
-    const Light& light = point.lights().lights()[static_cast<std::size_t>(hit.light)];
+    const Light& light = point.light(hit.light);
     const Vec3<T> share = Vec3<T>(bsdf.evaluate(result.wi)) * cos_theta *
                           vec_cast<T>(radiance(light)) *
                           (result.weight / (counts.bsdf * result.bsdf_pdf));
@@ -192,20 +229,21 @@ DirectDraw<T> draw_bsdf(const DirectPoint<Policy, T>& point, const HostBsdf<T> a
 /// numbers(k): those of draw k, a DirectNumbers<T>; light draw k and BSDF draw k may share it, as
 /// they read different members. With `all`, every light has `light_draws`, and k runs over them
 /// all.
-template <class Heuristic, class Technique, class Policy, class T>
-DirectSample<T> sample_direct(const DirectPoint<Policy, T>& point, const HostBsdf<T> auto& bsdf,
-                              const Occluder<T> auto& is_occluded, const auto& numbers,
-                              int light_draws = 1, int bsdf_draws = 1)
+template <class Heuristic, class Technique, class Point, class T = typename Point::Number>
+requires ChoosingPoint<Point, T> DirectSample<T> sample_direct(
+    const Point& point, const HostBsdf<T> auto& bsdf, const Occluder<T> auto& is_occluded,
+    const auto& numbers, int light_draws = 1, int bsdf_draws = 1)
 {
     DirectSample<T> sample;
+    sample.invalid = point.is_finite() ? 0 : 1;
     if (!point.is_lit()) return sample;
     const DirectCounts<T> counts{T(light_draws), T(bsdf_draws)};
-    const auto lights = static_cast<int>(point.lights().lights().size());
-    const int draws = Policy::draws_every_light ? light_draws * lights : light_draws;
+    const auto lights = static_cast<int>(point.light_count());
+    const int draws = point.draws_every_light() ? light_draws * lights : light_draws;
     for (int k = 0; k < draws; ++k) {
         const DirectNumbers<T> u = numbers(k);
         const Choice choice =
-            Policy::draws_every_light ? Choice{k / light_draws, 1} : point.choose(u.choice);
+            point.draws_every_light() ? Choice{k / light_draws, 1} : point.choose(u.choice);
         sample.add(
             draw_towards<Heuristic, Technique>(point, bsdf, is_occluded, choice, u.cap, counts));
     }
@@ -219,14 +257,18 @@ DirectSample<T> sample_direct(const DirectPoint<Policy, T>& point, const HostBsd
 
 /// One sample of the one-sample model (Veach 1997, §9.2.4): a light draw or a BSDF draw,
 /// probability ½ each, by `technique` in [0, 1).
-template <class Heuristic, class Technique, class Policy, class T>
-DirectSample<T> sample_direct_once(const DirectPoint<Policy, T>& point,
-                                   const HostBsdf<T> auto& bsdf,
-                                   const Occluder<T> auto& is_occluded, const T& technique,
-                                   const DirectNumbers<T>& u)
+template <class Heuristic, class Technique, class Point, class T = typename Point::Number>
+requires ChoosingPoint<Point, T> DirectSample<T> sample_direct_once(
+    const Point& point, const HostBsdf<T> auto& bsdf, const Occluder<T> auto& is_occluded,
+    const T& technique, const DirectNumbers<T>& u)
 {
-    static_assert(!Policy::draws_every_light, "one draw cannot be one for every light");
+    static_assert(
+        !requires { requires Point::draws_every_light(); },
+        "one draw cannot be one for every light");
+    assert(!point.draws_every_light());
     DirectSample<T> sample;
+    sample.invalid = point.is_finite() ? 0 : 1;
+    if (!point.is_lit()) return sample;
     const DirectCounts<T> halves{T(0.5), T(0.5)};
     if (technique < T(0.5))
         sample.add(draw_towards<Heuristic, Technique>(point, bsdf, is_occluded,

@@ -12,6 +12,7 @@ public:
     static constexpr std::string_view summary = "one draw for every light";
     static constexpr bool draws_every_light = true, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
+    static bool keeps_tables(const Light&, const Light&) { return true; }
 
     explicit AllPolicy(const Lights&) {}
 

@@ -18,10 +18,12 @@ namespace mis {
 /// remainder.
 template <class T> struct LightColumns {
     std::size_t count = 0;                ///< without the padding
-    std::span<const T> x, y, z;           ///< of the centre, scene units
+    std::span<const T> x;                 ///< of the centre, scene units
+    std::span<const T> y;                 ///< of the centre
+    std::span<const T> z;                 ///< of the centre
     std::span<const T> radius;            ///< scene units
     std::span<const T> luminance_radius;  ///< Y(L)·r
-    T inverse_largest_radius = 1;
+    T inverse_largest_radius = 1;         ///< of all lights
 };
 
 /// A shading point as policies see it.
@@ -36,12 +38,16 @@ template <class T> struct ChoicePoint {
 /// Room for the tables of some points; handed out from the front, and all taken back at once.
 class Scratch {
 public:
+    /// Allocates; take() does not.
     explicit Scratch(std::size_t bytes)
         : storage_(std::make_unique<std::byte[]>(bytes)), size_(bytes)
     {
     }
+    /// Takes all back.
     void clear() { used_ = 0; }
+    /// Bytes in all.
     std::size_t size() const { return size_; }
+    /// Bytes that are not handed out.
     std::size_t left() const { return size_ - used_; }
 
     /// Room for n numbers of type N, on a boundary of 64 bytes. Precondition: bytes_for<N>(n) ≤
@@ -54,6 +60,7 @@ public:
         used_ += bytes_for<N>(n);
         return {reinterpret_cast<N*>(start), n};
     }
+    /// What take<N>(n) takes at most.
     template <class N> static constexpr std::size_t bytes_for(std::size_t n)
     {
         return (n * sizeof(N) + 127) / 64 * 64;
@@ -82,6 +89,7 @@ concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightInde
 /// table_bytes(lights): the scratch it takes. draws_every_light: one sample is one draw for every
 /// light (`all`); choose() is not asked. reads_all_lights: false where prepare() does not look
 /// at the columns, which then need not be there: with one table for every point, or a hierarchy.
+/// It may have keeps_tables(before, after): does it stay as it is when one light becomes another?
 // clang-format off
 template <class P, class T>
 concept LightChoice = std::constructible_from<P, const Lights&> &&
@@ -96,10 +104,21 @@ concept LightChoice = std::constructible_from<P, const Lights&> &&
 };
 // clang-format on
 
+/// Does a policy stay as it is when one of its lights becomes another? One that looks at all lights
+/// at each point keeps nothing of them.
+template <class Policy> bool keeps_tables(const Light& before, const Light& after)
+{
+    if constexpr (requires { Policy::keeps_tables(before, after); })
+        return Policy::keeps_tables(before, after);
+    else return Policy::reads_all_lights;
+}
+
 /// One light of the columns as seen from a point, or a batch of them.
 template <class T> struct SeenLight {
-    Vec3<T> to_center;
-    T distance, radius, luminance_radius;
+    Vec3<T> to_center;   ///< from the point, scene units
+    T distance;          ///< to the centre, scene units
+    T radius;            ///< scene units
+    T luminance_radius;  ///< Y(L)·r
     T size;  ///< radius over the largest radius of the scene: its square stays a normal number
 
     /// Ω/(2π sin θ_max) = sin θ_max/(1 + cos θ_max): times another factor of r it is the solid

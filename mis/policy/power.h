@@ -14,6 +14,10 @@ public:
     static constexpr std::string_view summary = "in proportion to emitted power, blind to distance";
     static constexpr bool draws_every_light = false, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
+    static bool keeps_tables(const Light& before, const Light& after)
+    {
+        return relative_power(before) == relative_power(after);
+    }
 
     explicit PowerPolicy(const Lights& lights)
         : by_power_(std::make_shared<AliasTable>(relative_powers(lights)))
@@ -34,11 +38,15 @@ public:
 
 private:
     /// Y(L)·r²; the common factor 4π² is left out.
+    static double relative_power(const Light& light)
+    {
+        return luminance_radius(light) * light.radius;
+    }
     static std::vector<double> relative_powers(const Lights& lights)
     {
         std::vector<double> powers;
         powers.reserve(lights.size());
-        for (const Light& light : lights) powers.push_back(luminance_radius(light) * light.radius);
+        for (const Light& light : lights) powers.push_back(relative_power(light));
         return powers;
     }
     std::shared_ptr<const AliasTable> by_power_;

@@ -118,8 +118,10 @@ MIS_INLINE void visit_reflection(const ChoicePoint<Scalar<T>>& point, F&& f)
 {
     bool is_glossy = false;
     point.bsdf.visit([&]<class B>(const B& bsdf) __attribute__((always_inline)) {
-        is_glossy = bsdf.lobe().half_solid_angle > 0;
-        if (is_glossy) f(GlossyReflection<T, B>(bsdf, point));
+        if constexpr (B::has_lobe) {
+            is_glossy = bsdf.lobe().half_solid_angle > 0;
+            if (is_glossy) f(GlossyReflection<T, B>(bsdf, point));
+        }
     });
     if (!is_glossy) f(FlatReflection<T>{});
 }

@@ -44,8 +44,8 @@ MIS_INLINE Vec3<T> places_of(const Group& group, const TreePoint<Scalar<T>>& at,
 
 /// What `product` says of the lights of a group.
 template <class T, class Reflection>
-MIS_INLINE void weigh_lights(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
-                             const LightTree::LightGroup& group, LightRow& weights)
+MIS_OWN_COPY void weigh_lights(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
+                               const LightTree::LightGroup& group, LightRow& weights)
 {
     const Vec3<T> n{T(at.point.n.x), T(at.point.n.y), T(at.point.n.z)};
     const T from_origin(length(at.point.x));
@@ -66,9 +66,9 @@ MIS_INLINE void weigh_lights(const Reflection& reflection, const TreePoint<Scala
 /// where a light of theirs may be above the horizon. doubts: how much the lights within a part
 /// differ, as a variance times the part's weight. docs/theory.md, eqs. 66 to 69.
 template <class T, class Reflection>
-MIS_INLINE void weigh_parts(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
-                            const LightTree::NodeGroup& group, LightRow& weights,
-                            LightTree::Row<Scalar<T>>& doubts)
+MIS_OWN_COPY void weigh_parts(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
+                              const LightTree::NodeGroup& group, LightRow& weights,
+                              LightTree::Row<Scalar<T>>& doubts)
 {
     using std::sqrt;
     const T zero = number<T>(0), one = number<T>(1), least = number<T>(1e-36);

@@ -11,6 +11,7 @@ public:
     static constexpr std::string_view summary = "every light alike, 1/M";
     static constexpr bool draws_every_light = false, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
+    static bool keeps_tables(const Light&, const Light&) { return true; }
 
     explicit UniformPolicy(const Lights& lights) : count_(lights.size()) {}
 

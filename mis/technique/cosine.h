@@ -8,7 +8,7 @@ namespace mis {
 struct CosineTechnique {
     static constexpr std::string_view name = "cosine";
     static constexpr std::string_view summary = "in proportion to the cosine, whatever the BSDF";
-    static constexpr bool chooses_light = false;
+    static constexpr bool chooses_light = false, asks_bsdf = false;
     template <class B, class T>
     MIS_INLINE static Vec3<T> sample(const B&, const Vec3<T>&, const T&, const Vec2<T>& u)
     {

@@ -8,7 +8,7 @@ namespace mis {
 struct HemisphereTechnique {
     static constexpr std::string_view name = "hemisphere";
     static constexpr std::string_view summary = "uniform over the hemisphere";
-    static constexpr bool chooses_light = false;
+    static constexpr bool chooses_light = false, asks_bsdf = false;
     template <class B, class T>
     MIS_INLINE static Vec3<T> sample(const B&, const Vec3<T>&, const T&, const Vec2<T>& u)
     {

@@ -27,11 +27,13 @@ concept LightTechnique = requires(const Cap<T>& cap, const Vec2<T>& u, const Vec
 // clang-format on
 
 /// A technique that draws over the hemisphere of the shading frame: sample and pdf are a pair.
+/// asks_bsdf: false where any object will do for the BSDF.
 // clang-format off
 template <class K, class B, class T>
 concept DirectionTechnique = requires(const B& bsdf, const Vec3<T>& w, const T& lobe,
                                       const Vec2<T>& u, const T& pdf) {
     { K::name } -> std::convertible_to<std::string_view>;
+    { K::asks_bsdf } -> std::convertible_to<bool>;
     { K::sample(bsdf, w, lobe, u) } -> std::same_as<Vec3<T>>;
     { K::pdf(pdf, w) } -> std::same_as<T>;
     { K::draws(bsdf) } -> std::same_as<bool>;

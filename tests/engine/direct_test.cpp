@@ -14,7 +14,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace mis {
 namespace {
@@ -71,11 +76,25 @@ void expect_same(const Vec3<double>& direct, const Vec3<double>& pipeline, const
 
 constexpr std::uint64_t samples = 24;
 
-template <class Policy, class Heuristic, class Technique>
-void expect_the_pipelines_samples(const DirectPoint<Policy, double>& point, const auto& bsdf,
+/// A BSDF at a point, whatever its type.
+struct AnyHostBsdf {
+    std::function<Vec3<double>(const Vec3<double>&)> evaluate;
+    std::function<double(const Vec3<double>&)> pdf;
+    std::function<Vec3<double>(double, const Vec2<double>&)> sample;
+};
+
+template <class B> AnyHostBsdf any_host_bsdf(const FramedBsdf<B, double>& b)
+{
+    return {[b](const auto& wi) { return b.evaluate(wi); },
+            [b](const auto& wi) { return b.pdf(wi); },
+            [b](double lobe, const auto& u) { return b.sample(lobe, u); }};
+}
+
+template <class Heuristic, class Technique, class Point>
+void expect_the_pipelines_samples(const Point& point, std::string_view policy, const auto& bsdf,
                                   const Host& host)
 {
-    const std::string name = std::string(Policy::name) + '/' + std::string(Heuristic::name) +
+    const std::string name = std::string(policy) + '/' + std::string(Heuristic::name) +
                              (Technique::name == "cone" ? "" : '/' + std::string(Technique::name));
     const bool is_alone = Heuristic::name == "light";
     for (std::uint64_t k = 0; k < samples; ++k) {
@@ -86,7 +105,8 @@ void expect_the_pipelines_samples(const DirectPoint<Policy, double>& point, cons
         if (is_alone) continue;
         expect_same(sample_direct<Heuristic, Technique>(point, bsdf, host, numbers, 3, 2).radiance,
                     by_pipeline(host, name + "@3+2", k), name + "@3+2", k);
-        if constexpr (!Policy::draws_every_light) {
+        if constexpr (!requires { requires Point::draws_every_light(); }) {
+            if (point.draws_every_light()) continue;
             const double technique =
                 unit_number<double>(random_words(seed, {0, k, 0}, Block::bsdf)[0]);
             expect_same(
@@ -97,7 +117,21 @@ void expect_the_pipelines_samples(const DirectPoint<Policy, double>& point, cons
     }
 }
 
-/// Every policy × heuristic × light technique on one BSDF.
+/// Every heuristic × light technique, compiled for all policies and BSDFs.
+void expect_the_pipelines_samples_of_all(const AnyDirectPoint<double>& point,
+                                         std::string_view policy, const AnyHostBsdf& bsdf,
+                                         const Host& host)
+{
+    for_each_type(Heuristics{}, [&]<class Heuristic>() {
+        for_each_type(Techniques{}, [&]<class Technique>() {
+            if constexpr (Technique::chooses_light)
+                expect_the_pipelines_samples<Heuristic, Technique>(point, policy, bsdf, host);
+        });
+    });
+}
+
+/// Every policy × heuristic × light technique on one BSDF; and every policy compiled into the
+/// draws.
 template <class B> void expect_the_pipelines_samples_of(const Material& material)
 {
     Scene scene = crowded_scene(material);
@@ -112,12 +146,10 @@ template <class B> void expect_the_pipelines_samples_of(const Material& material
         DirectPoint<Policy, double> point(lights);
         point.move_to(host.point.x, n, wo, any_bsdf(own));
         ASSERT_TRUE(point.is_lit());
-        for_each_type(Heuristics{}, [&]<class Heuristic>() {
-            for_each_type(Techniques{}, [&]<class Technique>() {
-                if constexpr (Technique::chooses_light)
-                    expect_the_pipelines_samples<Policy, Heuristic, Technique>(point, bsdf, host);
-            });
-        });
+        expect_the_pipelines_samples_of_all(AnyDirectPoint<double>(point), Policy::name,
+                                            any_host_bsdf(bsdf), host);
+        expect_the_pipelines_samples<BalanceHeuristic, UnionTechnique>(point, Policy::name, bsdf,
+                                                                       host);
     });
 }
 
@@ -170,6 +202,69 @@ TEST(Direct, CountsWhatIsNotFiniteAndLeavesItOut)
     EXPECT_EQ(sample_of(overhead, {.f = infinity}).invalid, 2);
 }
 
+using CapTechniques = TypeList<ConeTechnique, UnionTechnique, ProjectedTechnique>;
+
+/// Each way in which a host may lie, under every policy and technique: some light or none, never a
+/// number that is none, and what makes no sense is counted. (Debug builds assert what is a lie
+/// beyond doubt.)
+TEST(Direct, ALyingHostIsCountedAndNeverBelieved)
+{
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const float bad = std::numeric_limits<float>::quiet_NaN();
+    const Faulty no_direction{.wi = {bad, bad, bad}}, no_density{.density = nan};
+    EXPECT_EQ(sample_of(overhead, no_direction).invalid, 1);
+    EXPECT_GT(sample_of(overhead, no_direction).radiance.y, 0);  // of the light draw
+    EXPECT_EQ(sample_of(overhead, no_density).invalid, 2);
+    EXPECT_EQ(sample_of(overhead, {}, {nan, 0, 0}).invalid, 1);
+    for_each_type(Policies{}, [&]<class Policy>() {
+        for_each_type(CapTechniques{}, [&]<class Technique>() {
+            for (const Lights& lights : {Lights(), overhead, thirty_lights_one_dark()}) {
+                const DirectLights<Policy> ready(lights);
+                DirectPoint<Policy> point(ready);
+                point.move_to(Vec3<double>(0, -0.01, 0), {0, 1, 0});
+                const auto numbers = [&](int k) {
+                    return DirectNumbers<float>{
+                        k % 2 == 0 ? ~0ULL : 0, {bad, bad}, bad, {bad, bad}};
+                };
+                int calls = 0;
+                const auto changes_its_mind = [&](const Vec3<float>&, float) {
+                    return ++calls % 2 == 0;
+                };
+                for (const Faulty& faulty :
+                     {no_direction, no_density, Faulty{.f = nan}, Faulty{}}) {
+                    const auto sample = sample_direct<BalanceHeuristic, Technique>(
+                        point, faulty, changes_its_mind, numbers, 2, 2);
+                    EXPECT_TRUE(std::isfinite(sample.radiance.y)) << Policy::name;
+                    if (!lights.empty()) EXPECT_GT(sample.invalid, 0) << Policy::name;
+                    else EXPECT_EQ(sample.invalid, faulty.wi.x == faulty.wi.x ? 0 : 2);
+                }
+            }
+        });
+    });
+}
+
+TEST(DirectDeathTest, DebugBuildsNameTheArgumentThatIsALie)
+{
+    EXPECT_DEBUG_DEATH(sample_of(overhead, {.density = -1}), "bsdf.pdf: not negative");
+    EXPECT_DEBUG_DEATH(sample_of(overhead, {.wi = {0, 2, 0}}), "bsdf.sample: a unit vector");
+    const DirectLights<UniformPolicy> ready(overhead);
+    DirectPoint<UniformPolicy> point(ready);
+    EXPECT_DEBUG_DEATH(point.move_to(Vec3<double>(0), {0, 2, 0}), "n: a unit vector");
+    point.move_to(Vec3<double>(0), {0, 1, 0});
+    EXPECT_DEBUG_DEATH((draw_towards<BalanceHeuristic, ConeTechnique>(
+                           point, Faulty{}, [](const Vec3<float>&, float) { return false; }, {0, 1},
+                           {2, 0}, DirectCounts<float>{})),
+                       "numbers.cap: in");
+    DirectLights<UniformPolicy> changing(overhead);
+#ifndef NDEBUG
+    EXPECT_DEATH(changing.replace(1, overhead[0]), "j: an index of a light");
+#else
+    const float far = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(sample_of(overhead, {.density = -1}).invalid, 2);
+    EXPECT_EQ(sample_of(overhead, {.wi = {far, far, far}}).invalid, 1);
+#endif
+}
+
 TEST(Direct, ADensityOf0OrInfinityLeavesOneTechnique)
 {
     // Both draws go straight up the middle, so each technique alone gives f · L/pdf.
@@ -208,6 +303,70 @@ TEST(Direct, OtherLightsAreAsThoughNewlyMade)
         for (LightIndex j = 0; j < 30; ++j) {
             EXPECT_EQ(a.probability(j), c.probability(j)) << Policy::name;
             EXPECT_EQ(b.probability(j), c.probability(j)) << Policy::name;
+        }
+    });
+}
+
+/// A policy that counts how often its tables were made.
+template <class Policy> struct Counted : Policy {
+    static inline int made = 0;
+    explicit Counted(const Lights& lights) : Policy(lights) { ++made; }
+};
+
+/// What a point has to say of thirty lights: their probabilities, and what it draws. Apart, since
+/// GCC 12 sees the point's table as unset where it is inlined.
+template <class Point> [[gnu::noinline]] std::vector<double> answers_of(const Point& point)
+{
+    std::vector<double> answers;
+    for (LightIndex j = 0; j < 30; ++j) answers.push_back(point.probability(j));
+    for (std::uint64_t i = 0; i < 100; ++i)
+        answers.push_back(point.choose(i * 0x9e3779b97f4a7c15).light);
+    return answers;
+}
+
+/// Each change of one light in turn, of lights whose medians, and so whose origin, stay.
+TEST(Direct, AReplacedLightIsAsThoughAllWereNewlyMade)
+{
+    for_each_type(Policies{}, [&]<class Policy>() {
+        Lights lights = thirty_lights_one_dark();
+        DirectLights<Counted<Policy>, double> changed(lights);
+        const auto far = static_cast<LightIndex>(  // beyond the median on each axis
+            std::max_element(lights.begin(), lights.end(),
+                             [](const Light& a, const Light& b) {
+                                 return a.center.x + a.center.y < b.center.x + b.center.y;
+                             }) -
+            lights.begin());
+        const Light old = lights[static_cast<std::size_t>(far)];
+        const Vec3<double> moved = old.center + Vec3<double>(0.3, 0.2, 0), white(7);
+        const std::string name(Policy::name);
+        const bool of_power = name == "power" || name == "tree";
+        struct Change {
+            Light light;
+            bool makes_tables;
+        };
+        for (const Change& change :
+             {Change{make_light(moved, old.radius, radiance(old)), name == "tree"},
+              Change{make_light(moved, old.radius, white), of_power},
+              Change{make_light(moved, 2 * old.radius, white), of_power},
+              Change{make_light(moved, 40, white), of_power},  // the largest
+              Change{old, of_power}}) {
+            lights[static_cast<std::size_t>(far)] = change.light;
+            const int before = Counted<Policy>::made;
+            changed.replace(far, change.light);
+            EXPECT_EQ(Counted<Policy>::made - before, change.makes_tables ? 1 : 0) << name;
+            const DirectLights<Policy, double> fresh(lights);
+            ASSERT_EQ(changed.origin(), fresh.origin());
+            DirectPoint<Counted<Policy>, double> a(changed);
+            DirectPoint<Policy, double> b(fresh);
+            const Vec3<double> x{-50, -1, 2};
+            a.move_to(x, {0, 1, 0}), b.move_to(x, {0, 1, 0});
+            ASSERT_TRUE(b.is_lit());
+            EXPECT_EQ(answers_of(a), answers_of(b)) << name;
+            for (const Light& light : lights) {
+                const Vec3<double> wi = normalized(light.center - x);
+                EXPECT_EQ(changed.hierarchy().nearest(x, wi).light,
+                          fresh.hierarchy().nearest(x, wi).light);
+            }
         }
     });
 }

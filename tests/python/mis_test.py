@@ -31,6 +31,7 @@ except ImportError:
 
 LECTURE = ROOT / "scenes" / "lecture.json"
 ECLIPSE = ROOT / "scenes" / "eclipse.json"
+SINGLE = ROOT / "scenes" / "single.json"
 
 ONE_LIGHT = {
     "format": "mis-scene/1",
@@ -138,6 +139,20 @@ class Values(unittest.TestCase):
         np.testing.assert_array_equal(one, two)
         sobol = mis.render(scene, "solid-angle/power", 4, sampler="sobol").radiance
         self.assertFalse(np.array_equal(one, sobol))
+
+    def test_every_sampler_compares_and_samples(self):
+        smooth = mis.Scene(SINGLE, resolution=(32, 20))
+        variance = {}
+        for sampler in ("independent", "sobol"):
+            report = mis.compare(smooth, ["solid-angle/power"], spp=256, sampler=sampler)
+            self.assertEqual(report["sampler"], sampler)
+            variance[sampler] = report["scenes"][0]["strategies"][0]["variance"]["value"]
+        self.assertLess(variance["sobol"], 0.2 * variance["independent"])
+        scene = mis.Scene(LECTURE, resolution=(32, 20))
+        picture = mis.render(scene, "solid-angle/power", 16, sampler="sobol")
+        x = mis.samples(scene, "solid-angle/power", 16, pixel=(16, 15), sampler="sobol")
+        luminance = picture.radiance[15, 16] @ [0.2126, 0.7152, 0.0722]
+        self.assertAlmostEqual(luminance / x.mean(), 1, places=4)
 
     def test_compare_gives_the_report(self):
         scene = mis.Scene(LECTURE, resolution=(32, 20))
@@ -283,6 +298,10 @@ class BadInput(unittest.TestCase):
         says(["more than one"], lambda: mis.compare(scene, ["brdf"], spp=8, seconds=1))
         says(["seconds", "0"], lambda: mis.compare(scene, ["brdf"], seconds=0))
         says(["error", "nan"], lambda: mis.compare(scene, ["brdf"], error=math.nan))
+        says(["sampler", "halton"], lambda: mis.compare(scene, ["brdf"], sampler="halton"))
+        says(["sampler", "halton"], lambda: mis.samples(scene, "brdf", 1, sampler="halton"))
+        says(["at", "2.5", "scrambling"], lambda: mis.compare(scene, ["brdf"], at=2.5, sampler="sobol"))
+        says(["spp", "24", "multiple"], lambda: mis.compare(scene, ["brdf"], spp=24, sampler="sobol"))
         says(["at", "-2"], lambda: mis.compare(scene, ["brdf"], at=-2))
         self.assertRaises(TypeError, lambda: mis.render(scene, 3))
 

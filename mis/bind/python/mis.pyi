@@ -89,6 +89,7 @@ def samples(
     pixel: tuple[int, int] | None = None,
     first: int = 0,
     seed: int = 1,
+    sampler: str = "independent",
     threads: int = 0,
 ) -> NDArray[np.float64]:
     """Luminances (count,) of samples [first, first + count) at a probe (the first one), or at a pixel (column, row)."""
@@ -102,9 +103,11 @@ def compare(
     error: float | None = None,
     at: float = 16.0,
     seed: int = 1,
+    sampler: str = "independent",
     threads: int = 0,
 ) -> dict[str, Any]:
-    """Ranks strategies: mis-report/1. Until settled or 30 s, or as far as `spp`, `seconds` or `error` says."""
+    """Ranks strategies: mis-report/1. Until settled or 30 s, or as far as `spp`, `seconds` or `error` says. sampler: "sobol" measures
+    variances over scramblings of `at` samples each."""
 
 def predict(
     scene: Scene, strategies: Sequence[str], *, threads: int = 0

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <limits>
 
@@ -130,13 +131,13 @@ OnePoint found(const ReadyScene& ready, const Place& place, const AnyExecutor& e
 
 std::vector<double> samples(const ReadyScene& ready, const std::string& strategy,
                             const Place& place, std::int64_t count, std::int64_t first,
-                            const Run& run)
+                            const std::string& sampler, const Run& run)
 {
     check_range("count", count, 0, most_samples);
     check_range("first", first, 0, most_samples);
     const AnyExecutor executor = executor_of(run);
     const ReadyStrategy<float> prepared(ready.lit, parse_strategy(strategy), kernels<float>(),
-                                        run.seed);
+                                        source_of(sampler, run.seed));
     const OnePoint one = found(ready, place, executor);
     std::vector<double> values(static_cast<std::size_t>(count), 0.0);
     if (one.point == nullptr) return values;
@@ -165,6 +166,28 @@ std::vector<double> samples(const ReadyScene& ready, const std::string& strategy
     return values;
 }
 
+namespace {
+
+/// Samples of one scrambling, of which variances are then: at least two replicates of two. 0: of
+/// independent samples.
+std::uint64_t samples_per_scrambling(const CompareOptions& options)
+{
+    if (source_of(options.sampler, 0).samples_per_scrambling == 0) return 0;
+    if (!(options.at <= 65536) || options.at != std::floor(options.at))
+        throw ArgumentError(
+            fmt::format("at: found {}; with sampler \"sobol\" it is the samples of one scrambling, "
+                        "a whole number from 1 to 65536",
+                        options.at));
+    const auto at = static_cast<std::int64_t>(options.at);
+    if (options.spp && (*options.spp < 4 * at || *options.spp % at != 0))
+        throw ArgumentError(fmt::format(
+            "spp: found {}; with sampler \"sobol\" it is a multiple of at ({}), and at least {}",
+            *options.spp, at, 4 * at));
+    return static_cast<std::uint64_t>(at);
+}
+
+}  // namespace
+
 Report compare(const ReadyScene& ready, const std::vector<std::string>& strategies,
                const CompareOptions& options, const Run& run)
 {
@@ -189,6 +212,7 @@ Report compare(const ReadyScene& ready, const std::vector<std::string>& strategi
 
     StudyOptions study;
     study.seed = run.seed, study.at = options.at;
+    study.samples_per_scrambling = samples_per_scrambling(options);
     if (options.spp) study.spp = static_cast<std::uint64_t>(*options.spp);
     study.seconds = options.seconds, study.error = options.error;
     std::atomic<bool> stop{false};
@@ -207,6 +231,7 @@ Report compare(const ReadyScene& ready, const std::vector<std::string>& strategi
         throw ArgumentError(ready.scene.file + ": found nothing to light: no surface is in view");
     Report report{.version = MIS_VERSION};
     report.seed = run.seed, report.at = options.at, report.threads = executor.threads;
+    report.is_sobol = study.samples_per_scrambling > 0;
     report.instruction_set = kernels<float>().instruction_set;
     report.partial = found.report.partial;
     report.scenes.push_back(found.report);

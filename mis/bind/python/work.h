@@ -54,15 +54,16 @@ Picture render(const ReadyScene& ready, const std::string& strategy, std::int64_
 using Place = std::variant<std::int64_t, std::array<std::int64_t, 2>>;
 
 /// Luminances of samples [first, first + count) at one shading point, in order: the samples that
-/// `compare` and `render` take. Throws StrategyError, ArgumentError.
+/// `compare` and `render` take with the same sampler. Throws StrategyError, ArgumentError.
 std::vector<double> samples(const ReadyScene& ready, const std::string& strategy,
                             const Place& place, std::int64_t count, std::int64_t first,
-                            const Run& run);
+                            const std::string& sampler, const Run& run);
 
 struct CompareOptions {
     std::optional<std::int64_t> spp;
     std::optional<double> seconds, error;
     double at = 16;
+    std::string sampler = "independent";
 };
 /// As `mis compare` reports it. Throws StrategyError, ArgumentError.
 Report compare(const ReadyScene& ready, const std::vector<std::string>& strategies,

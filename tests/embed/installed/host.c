@@ -128,6 +128,17 @@ static void try_mistakes(void)
     expect(mis_lights_assign(lights, lamps, 2, 0, 0) == MIS_OK, "lights are added");
     expect(mis_point_move_to(point, inside, n) == 0, "a point inside a light is not lit");
     expect(mis_point_probability(point, 0) == 0, "and chooses nothing");
+    expect(mis_lights_replace(lights, 2, &lamps[0], 0, 0) == MIS_BAD_ARGUMENT, "there is no third light");
+    expect(mis_lights_replace(lights, 0, 0, 0, 0) == MIS_BAD_ARGUMENT, "a null light is refused");
+    expect(mis_lights_replace(lights, 0, &flat, message, sizeof message) == MIS_BAD_LIGHT && strstr(message, "light 0/radius"),
+           "a negative radius is refused here too");
+    expect(mis_point_move_to(point, inside, n) == 0, "and the old light stays");
+    {
+        mis_light moved = lamps[0];
+        moved.center[0] += 1000;
+        expect(mis_lights_replace(lights, 0, &moved, 0, 0) == MIS_OK, "a light is moved");
+        expect(mis_point_move_to(point, inside, n) == 1, "away from the point");
+    }
     mis_point_destroy(point);
     mis_lights_destroy(lights);
 }
