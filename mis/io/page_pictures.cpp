@@ -49,8 +49,16 @@ struct Blocks {
 
 double luminance_of(const Vec3<float>& colour) { return luminance(vec_cast<double>(colour)); }
 
-/// Mean over a block of f(pixel), where that is a number; NaN where it is nowhere.
+/// Mean over a block of f(pixel): no number where one of them is none, so that it shows.
 template <class F> double mean_over(const Blocks& blocks, std::size_t block, const F& f)
+{
+    double sum = 0;
+    blocks.each_pixel(block, [&](std::size_t pixel) { sum += f(pixel); });
+    return sum / (blocks.side * blocks.side);
+}
+
+/// Mean over a block of f(pixel), where that is known (a number); NaN where it is nowhere.
+template <class F> double mean_of_known(const Blocks& blocks, std::size_t block, const F& f)
 {
     double sum = 0, count = 0;
     blocks.each_pixel(block, [&](std::size_t pixel) {
@@ -139,8 +147,9 @@ Json reference(const Blocks& blocks, PagePictures& page, const std::string& pref
                           [&](std::size_t p) { sum += vec_cast<double>(blocks.of.reference[p]); });
         const double all = sum.x + sum.y + sum.z;
         y[b] = luminance(sum) / (blocks.side * blocks.side);
-        red[b] = byte_of(all > 0 ? sum.x / all : 1.0 / 3);
-        blue[b] = byte_of(all > 0 ? sum.z / all : 1.0 / 3);
+        const bool has_colour = all > 0 && std::isfinite(all);
+        red[b] = byte_of(has_colour ? sum.x / all : 1.0 / 3);
+        blue[b] = byte_of(has_colour ? sum.z / all : 1.0 / 3);
     }
     Planes planes(blocks);
     const Json mean = planes.add_logs(y, mean_step);
@@ -157,7 +166,8 @@ Json strategy(const Blocks& blocks, const StrategyMap& map, PagePictures& page,
     std::vector<double> mean(blocks.count()), variance(blocks.count());
     for (std::size_t b = 0; b < blocks.count(); ++b) {
         mean[b] = mean_over(blocks, b, [&](std::size_t p) { return luminance_of(map.mean[p]); });
-        variance[b] = mean_over(blocks, b, [&](std::size_t p) { return double(map.variance[p]); });
+        variance[b] =
+            mean_of_known(blocks, b, [&](std::size_t p) { return double(map.variance[p]); });
     }
     Planes planes(blocks);
     const Json means = planes.add_logs(mean, mean_step),

@@ -1,5 +1,5 @@
 // Opens reports in a headless Chromium, as a person would from disk, and tries all that a page does.
-//     node report_test.mjs MIS SCENES CHROMIUM
+//     node report_test.mjs MIS SCENES CHROMIUM NO_NUMBER
 // Prints what was seen; exits with 1 at the first thing that is wrong.
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Page } from "./chromium.mjs";
 
-const [mis, scenes, chromium] = process.argv.slice(2);
+const [mis, scenes, chromium, no_number] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "mis-report-"));
 const hostile = "<script>alert(1)</script><img src=x onerror=alert(2)> \"quoted\" & 'single' \u202Eabc ünï שלום";
 
@@ -248,12 +248,30 @@ const tests = {
     await page.scheme("light");
   },
 
+  async "on paper it is light, whole, and without controls"() {
+    await page.call("Emulation.setEmulatedMedia", { media: "print", features: [{ name: "prefers-color-scheme", value: "dark" }] });
+    await page.resize(703, 1000);  // A4 within its margins
+    await page.until("innerWidth === 703");
+    const seen = await page.value(`({ ground: getComputedStyle(document.body).backgroundColor,
+      cut: [...document.querySelectorAll(".scroll")].filter((e) => e.offsetParent && e.getBoundingClientRect().left + e.scrollWidth > innerWidth).map((e) => e.id || e.className),
+      controls: [...document.querySelectorAll("#viewer button, #viewer input, .plot-head button, nav button, .skip")].filter((e) => e.offsetParent && !e.closest("#scale, #pixel")).map((e) => e.outerHTML.slice(0, 60)) })`);
+    assert.deepEqual(seen, { ground: "rgb(255, 255, 255)", cut: [], controls: [] });
+    const { data } = await page.call("Page.printToPDF", { preferCSSPageSize: true });
+    const pages = (Buffer.from(data, "base64").toString("latin1").match(/\/Type\s*\/Page\b/g) ?? []).length;
+    assert.ok(pages >= 2 && pages <= 8, `${pages} pages`);
+    assert.ok(await page.value('document.querySelector("#more-sentences").open'), "all findings are printed");
+    await page.call("Emulation.setEmulatedMedia", { media: "", features: [{ name: "prefers-color-scheme", value: "light" }] });
+    await page.resize(1280, 900);
+  },
+
   async "a narrow window needs no scrolling sideways"() {
     for (const width of [400, 700, 1280]) {
       await page.resize(width, 800);
       await page.until(`innerWidth === ${width}`);
       await new Promise((resolve) => setTimeout(resolve, 100));
       assert.ok(await page.value("document.documentElement.scrollWidth <= innerWidth"), `${width} pixels`);
+      const cut = await page.value(`[...document.querySelectorAll("svg[tabindex] .axis text")].filter((t) => { const a = t.getBoundingClientRect(), b = t.closest("svg").getBoundingClientRect(); return a.width > 0 && (a.left < b.left - 1 || a.right > b.right + 1); }).map((t) => t.textContent)`);
+      assert.deepEqual(cut, [], `labels that are cut off at ${width} pixels`);
     }
     await page.resize(1280, 900);
   },
@@ -263,6 +281,8 @@ async function one_scene() {
   const report = compare("one", join(scenes, "overlap.json"), "--resolution", "96x64", "--spp", "256");
   const milliseconds = await open(report);
   await settled();
+  const best = await page.value("scene_now().strategies.indexOf(best_of(scene_now()))");
+  assert.deepEqual(await page.value("[...layers_read.keys()].sort()"), ["0:" + best, "0:reference", "0:winners"], "pictures that are not shown are not decoded");
   console.log(`one scene: ${(report.size / 1e6).toFixed(2)} MB, loaded in ${milliseconds.toFixed(0)} ms`);
   for (const [name, test] of Object.entries(tests)) {
     await test(report);
@@ -299,6 +319,22 @@ async function several_scenes() {
   console.log("ok: several scenes, and names that are markup show as text");
 }
 
+/// A scene on some of whose tiles alone effects are simulated.
+async function effects_by_tile() {
+  const report = compare("tiles", join(scenes, "veach.json"), "--spp", "32", "--policy", "uniform");
+  await open(report);
+  const rows = await page.value('[...document.querySelectorAll("#effects tbody tr")].map((r) => r.innerText)'), effects = Object.entries(report.json.scenes[0].effects);
+  assert.equal(rows.length, effects.length);
+  assert.ok(effects.some(([, e]) => e.on && e.share < 1 && e.saved_seconds_per_sample !== null), "one that is simulated on some tiles alone");
+  for (const [name, e] of effects) {
+    const row = rows.find((r) => r.startsWith(name.replaceAll("_", " ")));
+    if (e.saved_rays_per_sample !== null) close_to(row.match(/(-?[\d.e-]+)\sns/)[1], 1e9 * e.saved_seconds_per_sample, `${name}: saved`);
+    if (e.on && e.share < 1) close_to(row.match(/on ([\d.]+)\s% of tiles/)[1], Number((100 * e.share).toPrecision(2)), `${name}: share`);
+  }
+  nothing_went_wrong(report);
+  console.log("ok: what an effect saves is told wherever it was measured");
+}
+
 async function probes_alone() {
   const scene = scene_of("single.json");
   const file = join(folder, "probes.json");
@@ -313,6 +349,38 @@ async function probes_alone() {
   console.log("ok: probes without a picture");
 }
 
+async function pixels_that_are_no_numbers() {
+  const file = join(folder, "no_number.html");
+  const marked = JSON.parse(execFileSync(no_number, [file]));
+  await open({ url: "file://" + file });
+  await settled();
+  const total = await page.value("maps_now().width * maps_now().height");
+  for (const mode of ["picture", "difference", "variance"])
+    for (const [layer, pixels] of Object.entries(marked)) {
+      if (mode !== "picture" && layer === "reference") continue;
+      assert.ok(pixels.length > 0 && pixels.length < total, layer);
+      await page.value(`document.querySelector("#picture").dataset.painted = ""; set_mode("${mode}"); set_layer(${layer === "reference" ? '"reference"' : layer})`);
+      await page.until(`document.querySelector("#picture").dataset.painted === "${mode} ${layer}"`);
+      const [striped, magenta] = await page.value(`(() => {
+        const { width, height } = view.painted, rgba = view.painted.getContext("2d").getImageData(0, 0, width, height).data;
+        const is = (i, [r, g, b]) => rgba[4 * i] === r && rgba[4 * i + 1] === g && rgba[4 * i + 2] === b;
+        const all = Array.from({ length: width * height }, (_, i) => i), magenta = all.filter((i) => is(i, bad_colour));
+        return [all.filter((i) => is(i, ((i % width) + Math.floor(i / width)) % 6 < 3 ? bad_colour : [0, 0, 0])), magenta];
+      })()`);
+      const wanted = new Set(pixels);
+      if (mode === "variance") for (const i of marked.reference) wanted.delete(i);  // the camera sees the light itself: no surface
+      const shown = new Set(striped);
+      assert.deepEqual([...wanted].filter((i) => !shown.has(i)), [], `${mode} of ${layer}: a pixel that is no number is striped`);
+      assert.deepEqual(magenta.filter((i) => !wanted.has(i)), [], `${mode} of ${layer}: no other pixel is`);
+    }
+  const width = await page.value("maps_now().width"), at = (i) => page.value(`(async () => { pointed = { x: ${i % width}, y: ${Math.floor(i / width)} }; set_layer(0); await read_out(); return document.querySelector("#read-out").textContent; })()`);
+  assert.match(await at(marked.reference[0]), /background, no number/);
+  assert.match(await at(marked["0"].find((i) => !marked.reference.includes(i))), /samples here that were no numbers/);
+  assert.ok(await page.value(`[...document.querySelectorAll("#checks tbody tr")].every((r) => Number(r.cells[7].innerText) > 0)`));
+  assert.deepEqual(page.errors, []);
+  console.log("ok: pixels that are no numbers show as marked");
+}
+
 async function stopped_early() {
   const out = join(folder, "partial");
   for (let seconds = 1; !existsSync(out) && seconds < 100; seconds *= 3)  // a slow machine may not have begun by then
@@ -324,7 +392,7 @@ async function stopped_early() {
 
 try {
   page = await Page.open(chromium);
-  for (const test of [one_scene, several_scenes, probes_alone, stopped_early]) await test();
+  for (const test of [one_scene, several_scenes, effects_by_tile, probes_alone, pixels_that_are_no_numbers, stopped_early]) await test();
 } catch (error) {
   console.error(error);
   process.exitCode = 1;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <string>
 
 namespace mis {
@@ -136,6 +137,37 @@ TEST(PagePictures, SayWhatTheyHold)
     // The only value of a layer is the lowest one of its code.
     EXPECT_NEAR(std::exp2(json["strategies"][0]["mean"]["low"].get<double>()), 0.25, 1e-6);
     EXPECT_NEAR(std::exp2(json["strategies"][0]["variance"]["low"].get<double>()), 2, 1e-6);
+}
+
+TEST(PagePictures, KeepAPixelThatIsNoNumberAmongOthersThatAre)
+{
+    const auto codes = [](const Maps& maps) {
+        const PagePictures page = page_pictures(maps, 20, "");
+        const auto json = nlohmann::json::parse(page.json);
+        EXPECT_EQ(json["scale"], 2);
+        return page.pictures;
+    };
+    const auto picture = [](const auto& pictures, const std::string& id) {
+        for (const auto& [name, base64] : pictures)
+            if (name == id) return base64;
+        return std::string();
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    Maps whole = small_maps(), one = whole, all = whole;
+    one.strategies[0].mean[7].y = nan;  // one of the four of the first block
+    one.reference[7].x = nan;
+    for (const std::size_t i : {0U, 1U, 6U, 7U}) {
+        all.strategies[0].mean[i] = Vec3<float>(nan);
+        all.reference[i] = Vec3<float>(nan);
+    }
+    for (const char* id : {"0", "reference"}) {
+        EXPECT_NE(picture(codes(one), id), picture(codes(whole), id)) << id;
+        EXPECT_EQ(picture(codes(one), id), picture(codes(all), id)) << id;
+    }
+    // A variance that is not known (one sample alone) leaves those that are.
+    Maps unknown = small_maps();
+    unknown.strategies[0].variance[7] = nan;
+    EXPECT_EQ(picture(codes(unknown), "0"), picture(codes(whole), "0"));
 }
 
 TEST(PagePictures, AreBounded)

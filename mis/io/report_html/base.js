@@ -16,7 +16,11 @@ function make(tag, properties = {}, ...children) {
   element.append(...children.filter((c) => c !== null && c !== undefined));
   return element;
 }
-const name_text = (name) => make("bdi", { className: "name" }, name);
+/// A strategy's name, which a narrow window breaks after a slash alone.
+const name_parts = (name) => name.split(/(?<=\/)/).flatMap((part, i) => [...(i > 0 ? [make("wbr")] : []), make("span", { className: "part" }, part)]);
+const name_text = (name) => make("bdi", { className: "name" }, ...name_parts(name));
+/// A command line, broken between its words alone.
+const command_text = (command) => make("bdi", {}, ...command.split(/(?<= )/).map((word) => make("span", { className: "word" }, word)));
 
 /// What is shown: a scene (-1: all of them), and the strategy that is singled out, by name.
 const shown = { scene: report.scenes.length > 1 ? -1 : 0, strategy: null };

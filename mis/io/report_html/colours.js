@@ -29,10 +29,10 @@ const policy_winner_colour = (strategies, policy) => d3.rgb(d3.interpolateLab(co
 
 /// The share of pixels below which `share` of the positive values lie.
 function quantile_of(values, share, is_counted = () => true) {
-  const step = Math.max(1, Math.floor(values.length / 50000)), some = [];
-  for (let i = 0; i < values.length; i += step) if (values[i] > 0 && is_counted(i)) some.push(values[i]);
-  some.sort((a, b) => a - b);
-  return some.length === 0 ? 1 : some[Math.min(some.length - 1, Math.floor(share * some.length))];
+  const step = Math.max(1, Math.floor(values.length / 50000)), some = new Float32Array(Math.ceil(values.length / step));
+  let count = 0;
+  for (let i = 0; i < values.length; i += step) if (values[i] > 0 && is_counted(i)) some[count++] = values[i];
+  return count === 0 ? 1 : some.subarray(0, count).sort()[Math.min(count - 1, Math.floor(share * count))];
 }
 
 /// Fills RGBA pixels: colour(i, out) puts three bytes.

@@ -9,7 +9,7 @@ function draw_error_time() {
     svg.append("text").attr("x", 0).attr("y", 40).attr("class", "soft").text("No ranked strategy has variance and time.");
     return;
   }
-  const left = 56, right = 14, top = 26, bottom = 44, high = Math.min(10, Math.max(.05, ...curves.map((c) => c.first_error)) * 1.2);
+  const left = 56, right = 24, top = 26, bottom = 44, high = Math.min(10, Math.max(.05, ...curves.map((c) => c.first_error)) * 1.2);
   const starts = curves.map((c) => Math.max(c.first, c.seconds(high)));
   const x = d3.scaleLog().domain([Math.min(...starts) / 1.3, Math.max(...curves.map((c) => c.seconds(.01))) * 5]).range([left, width - right]);
   const y = d3.scaleLog().domain([low, high]).range([height - bottom, top]);
@@ -27,13 +27,12 @@ function draw_error_time() {
     inside.append("circle").attr("cx", x(change.seconds)).attr("cy", y(change.after.error(change.seconds))).attr("r", 5).attr("fill", "none").attr("stroke", "currentColor").attr("stroke-width", 1.5);
   make_live(svg, rows);
   $("plot-error").append(make("p", { className: "note", id: "crossings" }, changes.length === 0 ? "The order of the strategies' curves at the front does not change with time. " :
-    changes.map((c) => `From ${duration(c.seconds)} on (error ${percent(c.after.error(c.seconds))}, ○) ${c.after.strategy.name} is ahead of ${c.before.strategy.name}. `).join("")));
+    make("span", {}, ...changes.flatMap((c) => [`From ${duration(c.seconds)} on (error ${percent(c.after.error(c.seconds))}, ○) `, name_text(c.after.strategy.name), " is ahead of ", name_text(c.before.strategy.name), ". "]))));
 }
 
 /// The 1 % line, and below all curves one of slope −½.
 function draw_guides(parent, x, y, curves) {
   parent.append("path").attr("class", "guide").attr("stroke-width", 1.5).attr("d", `M${x.range()[0]},${y(.01)}H${x.range()[1]}`);
-  parent.append("text").attr("class", "soft").attr("x", x.range()[0] + 6).attr("y", y(.01) - 5).text("1 %");
   const [from, to] = x.domain(), times_root = .6 * Math.min(...curves.map((c) => Math.sqrt(c.variance * c.per_sample * c.scale)));
   const error = (t) => times_root / Math.sqrt(t), at = from * (to / from) ** .3;
   parent.append("path").attr("class", "guide").attr("d", `M${x(from)},${y(error(from))}L${x(to)},${y(error(to))}`);

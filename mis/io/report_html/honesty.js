@@ -7,7 +7,7 @@ function draw_run() {
     ["Samples", samples_words(s)], ["Replicates", `${s.replicates} independent repetitions, which the intervals come from`],
     ["Took", duration(s.seconds) + (s.settled ? ", settled: every pair is apart or tied" : ", not settled: some pairs are undecided") + (s.partial ? ", stopped early" : "")],
   ];
-  $("run").replaceChildren(...lines.flatMap(([what, value, className]) => [make("dt", {}, what), make("dd", { className: className ?? "" }, make("bdi", {}, value))]));
+  $("run").replaceChildren(...lines.flatMap(([what, value, className]) => [make("dt", {}, what), make("dd", { className: className ?? "" }, className === "code" ? command_text(value) : make("bdi", {}, value))]));
   $("at").textContent = number(report.at);
   $("margin").textContent = percent(report.margin);
 }
@@ -20,12 +20,13 @@ function samples_words(s) {
 
 function draw_effects() {
   const effects = Object.entries(scene_now().effects).sort((a, b) => b[1].on - a[1].on);
-  const saved = (e) => e.on || e.saved_rays_per_sample === null ? "" : `${number(e.saved_rays_per_sample)} rays, ${number(1e9 * e.saved_seconds_per_sample)} ns`;
+  const saved = (e) => e.saved_rays_per_sample === null ? "" : `${number(e.saved_rays_per_sample)}\u00a0rays, ${number(1e9 * e.saved_seconds_per_sample)}\u00a0ns`;
   const any_saved = effects.some(([, e]) => saved(e) !== "");
-  const heads = [{ text: "Effect", className: "text" }, { text: "", className: "text" }, { text: "Why", className: "text" }];
-  if (any_saved) heads.push({ text: "Saved per sample" });
-  $("effects").replaceChildren(table_of("Effects", heads, effects.map(([name, e]) => make("tr", { className: e.on ? "" : "out" }, cell(name.replaceAll("_", " "), "text"),
-    cell(e.on ? e.share < 1 ? `on ${percent(e.share)} of tiles` : "simulated" : "left out", "text"), cell(e.why, "text wrap"), ...(any_saved ? [cell(saved(e))] : [])))));
+  const heads = [{ text: "Effect", className: "text" }, { text: "Why", className: "text" }];
+  if (any_saved) heads.push({ text: "Saved", className: "saved" });
+  $("effects").replaceChildren(table_of("Effects", heads, effects.map(([name, e]) => make("tr", { className: e.on ? "" : "out" }, cell([name.replaceAll("_", " "), make("small", { className: "below" }, e.on ? e.share < 1 ? `on ${percent(e.share)} of tiles` : "simulated" : "left out")], "text"),
+    cell(e.why, "text wrap"), ...(any_saved ? [cell(saved(e), "saved")] : [])))),
+    any_saved ? make("p", { className: "note" }, "Saved: per sample of uniform/power, by leaving the effect out of the tiles that do not call for it.") : "");
 }
 
 function draw_checks() {
@@ -33,6 +34,4 @@ function draw_checks() {
   const rows = scene_now().strategies.map((s) => make("tr", { "data-strategy": s.name, className: is_ranked(s) ? "" : "out" }, cell(pick_button(s), "text"), cell(is_ranked(s) ? s.exact ? "exact" : "ranked" : status_words[s.status], "text"),
     cell(s.samples ? number(s.samples) : "–"), cell([number(s.mean, 4), note(s.mean_se ? "±" + number(s.mean_se, 2) : "")]), cell(s.status === "not_run" ? "–" : number(s.bias_p_value, 2)), cell(s.exact || s.status === "not_run" ? "–" : number(s.effective_samples)), cell(s.exact || s.status === "not_run" ? "–" : percent(s.rare_share)), cell(String(s.invalid_samples))));
   $("checks").replaceChildren(table_of("Checks of each strategy", heads, rows));
-  const out = scene_now().strategies.filter((s) => !is_ranked(s));
-  $("checks").append(...out.map((s) => make("p", { className: "note" }, name_text(s.name), `: ${status_words[s.status]}. ${s.reason ? s.reason.replace(/\.?$/, ".") : ""}${s.estimated_seconds ? ` It would take about ${duration(s.estimated_seconds)} of CPU time.` : ""}`)));
 }

@@ -30,8 +30,9 @@ function draw_tiles(scene, best) {
   if (others.length > 1) compared("Against the slowest", others[others.length - 1]);
   const open = scene.pairs.filter((p) => p.a === best.name || p.b === best.name).map((p) => ({ name: p.a === best.name ? p.b : p.a, verdict: best.seconds_to_1_percent === null ? p.verdict : p.time_verdict }));
   const undecided = open.filter((o) => o.verdict === "undecided"), tied = open.filter((o) => o.verdict === "tied");
+  const not_ranked = scene.strategies.length - ranked(scene).length, others_not_ranked = not_ranked > 0 ? `; ${not_ranked} more are not ranked` : "";
   tiles.push(tile("How sure", undecided.length > 0 ? "not yet" : tied.length > 0 ? "tied" : open.length === 0 ? "alone" : "sure",
-    undecided.length > 0 ? `${undecided.length} of ${open.length} others may be as good` : tied.length > 0 ? `${tied.length} of ${open.length} others as good` : open.length === 0 ? "no other is ranked" : `ahead of all ${open.length} others, at 95\u00a0%`));
+    (undecided.length > 0 ? `${undecided.length} of ${open.length} others may be as good` : tied.length > 0 ? `${tied.length} of ${open.length} others as good` : open.length === 0 ? "no other is ranked" : `ahead of all ${open.length} others, at 95\u00a0%`) + (open.length > 0 ? others_not_ranked : "")));
   $("tiles").replaceChildren(...tiles);
 }
 
@@ -60,6 +61,7 @@ function draw_answer() {
 async function draw_hero() {
   const scene = shown.scene, m = maps_now(), canvas = $("hero-picture");
   if (!m) return;
+  await when_read(m.winners);
   const gain = await gain_of(scene), reference = await layer_of(scene, "reference");
   if (scene !== shown.scene) return;
   canvas.width = m.width;
@@ -77,7 +79,7 @@ function draw_layers() {
   $("layers").replaceChildren($("layers").firstElementChild, radio("reference", "reference"),
     ...m.strategies.map(({ strategy: k }) => { const s = scene.strategies[k]; return radio(k, mark_icon(s), make("bdi", {}, s.name), make("small", { title: "share of the pixels that it wins, by variance" }, m.wins.variance.strategy[k] > 0 ? percent(m.wins.variance.strategy[k]) : "")); }));
   $("viewer-size").textContent = (m.scale > 1 ? `Pictures here are ${m.scale} times smaller than the render; each pixel is the mean of ${m.scale * m.scale}. ` : "") +
-    "Colours are the reference's, the strategies differ in luminance. Means are kept to 0.2 %, variances to 0.7 %; maps.exr has them whole, with colours." +
+    "Colours are the reference's, the strategies differ in luminance. Means are kept to 0.2\u00a0%, variances to 0.7\u00a0%; maps.exr has them whole, with colours." +
     " Percentages beside names: the share of the pixels that each surely wins, by variance.";
   view.cross = pointed = null;
   view.painted = null;
@@ -97,7 +99,7 @@ function draw_plots() {
   apply_choice();
 }
 
-let pictures_are_here = false;
+let pictures_are_here = false, hero = null;
 function show_scene(scene) {
   shown.scene = scene;
   shown.strategy = null;
@@ -110,13 +112,14 @@ function show_scene(scene) {
   draw_scene_tabs();
   if (all) return draw_over_all();
   for (const draw of [draw_answer, draw_ranking, draw_probes, draw_legend, draw_plots, draw_run, draw_effects, draw_checks]) draw();
+  $("viewer").hidden = maps_now() === null;
+  hero = draw_hero();
   if (pictures_are_here) show_pictures();
-  else $("viewer").hidden = maps_now() === null;
 }
 
 /// The scene's picture first, then the viewer, once the browser has shown that.
 async function show_pictures() {
-  await draw_hero();
+  await hero;
   await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
   draw_layers();
 }
@@ -171,7 +174,7 @@ function viewer_key(e) {
   e.preventDefault();
 }
 
-$("footer").replaceChildren(`mis ${report.version} · seed ${report.seed} · `, make("bdi", {}, report.command), " · the same figures: report.json and strategies.csv");
+$("footer").replaceChildren(`mis ${report.version} · seed ${report.seed} · `, command_text(report.command), " · the same figures: report.json and strategies.csv");
 show_scene(shown.scene);
 document.addEventListener("DOMContentLoaded", () => {
   pictures_are_here = true;
@@ -179,6 +182,7 @@ document.addEventListener("DOMContentLoaded", () => {
   if (shown.scene >= 0) show_pictures();
 });
 document.addEventListener("keydown", (e) => { if (e.key === "Escape") { hide_tip(); if (shown.strategy !== null) choose(shown.strategy); } });
+addEventListener("beforeprint", () => { $("more-sentences").open = true; });
 let laid_out_at = innerWidth;
 addEventListener("resize", () => {
   if (innerWidth === laid_out_at || shown.scene < 0) return;

@@ -19,7 +19,7 @@ async function read_out() {
   const f = await figures_at(at), own = await layer_of(scene, layer);
   if (scene !== shown.scene) return;
   let text = `${pixel_words(at)} · `;
-  if (f.kind === 0) text += `background, ${number(f.reference)}`;
+  if (f.kind === 0) text += `background, ${isFinite(f.reference) ? number(f.reference) : "no number"}`;
   else {
     text += `reference ${number(f.reference)}`;
     if (layer !== "reference") {

@@ -18,9 +18,11 @@ const note = (text) => make("small", {}, text ? " " + text : "");
 /// A strategy's name as a button that singles it out, with its mark.
 function pick_button(s) {
   return make("button", { type: "button", className: "pick", ariaPressed: "false", onclick: () => choose(s.name) },
-    mark_icon(s), make("bdi", {}, s.name));
+    mark_icon(s), make("bdi", {}, ...name_parts(s.name)));
 }
 
+const reason_words = (s) => status_words[s.status] + (s.reason ? ": " + s.reason : "") +
+  (s.estimated_seconds ? `; it would take about ${duration(s.estimated_seconds)} of CPU time` : "");
 const place = (rank, low, high) => rank === null ? "–" : low === high ? String(rank) : `${low}–${high}`;
 const ranking_columns = [
   { key: "variance", text: "Variance", title: "of one sample", of: (s) => s.exact ? 0 : s.variance.value,
@@ -42,11 +44,12 @@ function ranking_row(scene, s, best) {
   const name = cell(pick_button(s), "text");
   if (s.rank_low !== s.rank_high) name.append(make("small", { title: "its rank by variance is not settled" }, " ~"));
   if (s.tied_with.length > 0) name.append(note("= " + s.tied_with.join(", ")));
-  row.append(name, cell(place(s.rank, s.rank_low, s.rank_high)));
+  row.append(name);
   if (!is_ranked(s)) {
-    row.append(make("td", { className: "text wrap", colSpan: ranking_columns.length + 1 }, status_words[s.status] + (s.reason ? ": " + s.reason : "")));
+    row.append(make("td", { className: "text wrap reason", colSpan: ranking_columns.length + 2 }, make("span", {}, reason_words(s))));
     return row;
   }
+  row.append(cell(place(s.rank, s.rank_low, s.rank_high)));
   for (const column of ranking_columns) {
     const shown_cell = cell(column.show(s));
     shown_cell.dataset.figure = column.key;

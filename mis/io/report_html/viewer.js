@@ -11,14 +11,15 @@ async function gain_of(scene) {
   if (!m.gain) m.gain = .8 / quantile_of((await layer_of(scene, "reference")).mean, .95, is_lit(await layer_of(scene, "winners")));
   return m.gain;
 }
-/// The ranges of a scene's scales, the same for all strategies.
+const difference_range = .5;
+/// The range of a scene's variances, the same for all strategies.
 async function measure_scene(scene) {
   const m = maps[scene];
   if (m.measures) return m.measures;
   const best = best_of(report.scenes[scene]), first = m.strategies.find((s) => report.scenes[scene].strategies[s.strategy] === best) ?? m.strategies[0];
   const variance = first ? (await layer_of(scene, first.strategy)).variance : (await layer_of(scene, "reference")).mean;
   const lit = is_lit(await layer_of(scene, "winners")), middle = quantile_of(variance, .5, lit), top = quantile_of(variance, .99, lit);
-  m.measures = { variances: [middle / 300, Math.max(top * 30, middle * 300)], differences: .5 };
+  m.measures = { variances: [middle / 300, Math.max(top * 30, middle * 300)] };
   return m.measures;
 }
 
@@ -27,14 +28,14 @@ async function repaint() {
   const scene = shown.scene, m = maps_now(), ticket = ++view.ticket;
   if (!m) return;
   await gain_of(scene);
-  const measures = await measure_scene(scene), layer = picture_layer();
+  const measures = view.mode === "variance" ? await measure_scene(scene) : null, layer = picture_layer();
   const reference = await layer_of(scene, "reference"), winners = await layer_of(scene, "winners"), own = await layer_of(scene, layer);
   if (ticket !== view.ticket) return;
   const gain = maps[scene].gain * 2 ** Number($("exposure").value), of = report.scenes[scene];
   let image;
   if (view.mode === "winner") image = paint_winners(m, winners[$("winner-by").value], winners.kind, of.strategies, shown.strategy);
   else if (view.mode === "variance" && own.variance) image = paint_variance(m, own, winners.kind, measures.variances);
-  else if (view.mode === "difference") image = paint_difference(m, own, reference.mean, winners.kind, of.epsilon, measures.differences);
+  else if (view.mode === "difference") image = paint_difference(m, own, reference.mean, winners.kind, of.epsilon, difference_range);
   else image = paint_mean(m, own.mean, reference, own.bad, gain, Number($("gamma").value));
   const canvas = new OffscreenCanvas(m.width, m.height);
   canvas.getContext("2d").putImageData(image, 0, 0);
@@ -117,8 +118,8 @@ function draw_scale(measures) {
   place.replaceChildren();
   if (view.mode === "picture") return;
   if (view.mode === "winner") return draw_winner_key(place);
-  const width = 560, svg = d3.create("svg").attr("viewBox", `0 0 ${width} 50`).attr("role", "img");
-  const is_variance = view.mode === "variance", x = is_variance ? d3.scaleLog().domain(measures.variances) : d3.scaleLinear().domain([-measures.differences, measures.differences]);
+  const width = Math.max(280, Math.min(560, place.clientWidth)), svg = d3.create("svg").attr("viewBox", `0 0 ${width} 50`).attr("role", "img");
+  const is_variance = view.mode === "variance", x = is_variance ? d3.scaleLog().domain(measures.variances) : d3.scaleLinear().domain([-difference_range, difference_range]);
   x.range([24, width - 24]);
   const scale = is_variance ? d3.interpolateViridis : difference_scale;
   for (let i = 0; i < 128; ++i) svg.append("rect").attr("x", 24 + i * (width - 48) / 128).attr("width", (width - 48) / 128 + .6).attr("height", 12).attr("fill", scale(i / 127));
