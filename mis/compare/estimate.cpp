@@ -182,6 +182,16 @@ Interval interval_about(double centre, const LogEstimate& log_figure)
     return {centre, centre * std::exp(-half_width), centre * std::exp(half_width)};
 }
 
+Interval widened(const Interval& interval, double half_width)
+{
+    const auto factor = [&](double end) {
+        return std::exp(std::hypot(std::log(end / interval.value), half_width));
+    };
+    if (half_width == 0 || !(interval.low > 0)) return interval;
+    return {interval.value, interval.value / factor(interval.low),
+            interval.value * factor(interval.high)};
+}
+
 Interval unknown_interval() { return {nan, nan, nan}; }
 
 MeanAndError mean_and_error(std::span<const double> values)

@@ -70,6 +70,9 @@ Interval interval_of(const LogEstimate& log_figure);
 /// replicates'.
 Interval interval_about(double centre, const LogEstimate& log_figure);
 
+/// With another, independent half width of its logarithm.
+Interval widened(const Interval& interval, double half_width);
+
 /// Not known.
 Interval unknown_interval();
 

@@ -85,6 +85,8 @@ Figures figures_of(const StrategyMeasurements& s, double at)
     f.exact = s.all_samples_equal_reference;
     f.variance = f.exact ? 0 : s.pooled.variance;
     f.relative_variance = f.exact ? 0 : s.pooled.relative_variance;
+    if (f.relative_variance > 0)
+        f.relative_doubt = std::log1p(s.pooled.relative_variance_doubt / f.relative_variance);
     const double least_samples =
         s.samples_per_observation;  // a part of a scrambling was not measured
     f.samples_to_1_percent = std::max(least_samples, f.relative_variance / one_percent_squared);
@@ -196,9 +198,11 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
     report.variance = figures.exact
                           ? Interval{}
                           : interval_about(figures.variance, log_contrast(figures.variances, {}));
-    report.relative_variance = figures.exact ? Interval{}
-                                             : interval_about(figures.relative_variance,
-                                                              log_mean(figures.relative_variances));
+    report.relative_variance = figures.exact
+                                   ? Interval{}
+                                   : widened(interval_about(figures.relative_variance,
+                                                            log_mean(figures.relative_variances)),
+                                             figures.relative_doubt);
     report.rare_share = figures.exact ? 0 : s.pooled.rare_share;
     report.effective_samples = s.pooled.participation.number();
     add_times(report, s, figures);
@@ -206,9 +210,10 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
         product(log_contrast(figures.relative_variances, figures.sampling_share, {}, 0),
                 log_median(figures.seconds_to_1_percent));
     report.seconds_to_1_percent =
-        interval_about(std::exp(log_median(figures.seconds_to_1_percent).value) *
-                           static_cast<double>(points) / threads,
-                       to_1_percent);
+        widened(interval_about(std::exp(log_median(figures.seconds_to_1_percent).value) *
+                                   static_cast<double>(points) / threads,
+                               to_1_percent),
+                figures.relative_doubt * figures.sampling_share);
     for (const Moments& probe : s.probes)
         report.probes.push_back(point_figures(probe, s.samples_per_observation));
     return report;

@@ -17,7 +17,8 @@ struct Figures {
     bool exact = false;  ///< variance 0, proved
     double variance = 0, relative_variance = 0;
     std::vector<double> relative_variances;  ///< per replicate
-    RegionSums variances;                    ///< per replicate and region
+    double relative_doubt = 0;  ///< half width, of its logarithm: what the estimated μ may do to it
+    RegionSums variances;       ///< per replicate and region
     std::vector<double>
         seconds_at;  ///< per observation: seconds per sample, with its part of a point at n samples
     std::vector<double> seconds_to_1_percent;  ///< per observation: CPU seconds per point

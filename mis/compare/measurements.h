@@ -42,6 +42,7 @@ struct PooledFigures {
     double mean = 0;                       ///< mean over the points
     double variance = 0;                   ///< mean over the points, of one sample
     double relative_variance = 0;          ///< mean over the points of variance / (μ² + ε²)
+    double relative_variance_doubt = 0;    ///< how far off it may be, as μ is estimated (pool.h)
     Participation participation;           ///< in `variance`
     Participation relative_participation;  ///< in `relative_variance`
     double largest_point_share = 0;        ///< of `variance`: what the noisiest point carries

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -61,9 +62,32 @@ RelativeScale relative_scale(std::vector<double> means, const StudyPoints& point
     if (has_camera && points.figure_points > 0)
         scale.epsilon = 0.01 * std::accumulate(means.begin(), end_of_figures, 0.0) /
                         static_cast<double>(points.figure_points);
-    for (double& mean : means) mean = mean * mean + scale.epsilon * scale.epsilon;
-    scale.squares = std::move(means);
+    for (const double mean : means)
+        scale.squares.push_back(mean * mean + scale.epsilon * scale.epsilon);
+    scale.means = std::move(means);
     return scale;
+}
+
+double relative_variance_doubt(std::span<const Moments> points, const RelativeScale& scale)
+{
+    if (scale.mean_errors.empty()) return 0;
+    double by_covariance = 0, by_curvature = 0;
+    std::size_t with_variance = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Moments& point = points[i];
+        if (point.count < 2) continue;
+        ++with_variance;
+        const double square = scale.squares[i], mean = scale.means[i];
+        if (!(square > 0)) continue;
+        const auto n = static_cast<double>(point.count);
+        const double slope = -2 * mean / square / square,
+                     curvature = (8 * mean * mean / square - 2) / square / square;
+        by_covariance += slope * (point.m3 / n) / n;
+        by_curvature +=
+            0.5 * curvature * point.variance() * scale.mean_errors[i] * scale.mean_errors[i];
+    }
+    if (with_variance == 0) return 0;
+    return (std::abs(by_covariance) + std::abs(by_curvature)) / static_cast<double>(with_variance);
 }
 
 Participation participation_of(std::span<const Moments> points)

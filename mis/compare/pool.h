@@ -23,9 +23,15 @@ PooledFigures pool_points(std::span<const Moments> points, std::span<const doubl
 /// the figures' points, or 0 without a camera (design §1).
 struct RelativeScale {
     double epsilon = 0;
-    std::vector<double> squares;
+    std::vector<double> squares;      ///< μ² + ε²
+    std::vector<double> means;        ///< μ
+    std::vector<double> mean_errors;  ///< standard errors of μ, at most; empty: it is exact
 };
 RelativeScale relative_scale(std::vector<double> means, const StudyPoints& points, bool has_camera);
+
+/// How far off `relative_variance` may be in the mean, to first order, because μ is estimated from
+/// samples that it is correlated with: docs/theory.md, eq. 73. Of the same points as pool_points().
+double relative_variance_doubt(std::span<const Moments> points, const RelativeScale& scale);
 
 /// How many samples carry the variance over these points.
 Participation participation_of(std::span<const Moments> points);

@@ -16,6 +16,7 @@ GBuffer with_effect(GBuffer shading, bool TilePlan::*effect, LightProof proof)
 {
     for (Tile& tile : shading.tiles) {
         tile.plan.*effect = true;
+        if (proof == unhidden) tile.plan.blockers = nullptr;
         for (std::uint8_t& proofs : tile.plan.lights)
             proofs = static_cast<std::uint8_t>(proofs & ~proof);
     }

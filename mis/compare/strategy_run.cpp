@@ -126,7 +126,7 @@ std::optional<SampleName> StrategyRun::first_invalid() const
     return std::nullopt;
 }
 
-StrategyMeasurements StrategyRun::measurements(std::span<const double> scale) const
+StrategyMeasurements StrategyRun::measurements(const RelativeScale& scale) const
 {
     StrategyMeasurements m;
     m.strategy = strategy();
@@ -137,17 +137,21 @@ StrategyMeasurements StrategyRun::measurements(std::span<const double> scale) co
         m.probes.push_back(p >= 0 ? moments[static_cast<std::size_t>(p)] : Moments{});
     const auto figures = std::span<const Moments>(moments).first(points_->figure_lit);
 
-    m.pooled = pool_points(figures, scale.first(points_->figure_lit));
+    m.pooled =
+        pool_points(figures, std::span<const double>(scale.squares).first(points_->figure_lit));
+    m.pooled.relative_variance_doubt = relative_variance_doubt(figures, scale);
     const double lit = points_->figure_points == 0
                            ? 0
                            : double(points_->figure_lit) / double(points_->figure_points);
     m.pooled.mean *= lit;  // dark points have mean and variance 0
     m.pooled.variance *= lit;
     m.pooled.relative_variance *= lit;
+    m.pooled.relative_variance_doubt *= lit;
     m.samples_per_observation = samples_per_observation_;
     m.pooled.samples *= static_cast<std::uint64_t>(samples_per_observation_);
     m.pooled.variance *= samples_per_observation_;  // docs/theory.md (70)
     m.pooled.relative_variance *= samples_per_observation_;
+    m.pooled.relative_variance_doubt *= samples_per_observation_;
     m.region_participation.resize(points_->regions);
     for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
         const Tile& tile = points_->shading.tiles[t];
@@ -230,15 +234,18 @@ std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>
     return weights;
 }
 
-std::vector<double> pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
-                                 std::size_t points)
+PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs, std::size_t points)
 {
     const std::vector<double> weights = pooling_weights(runs);
-    std::vector<double> means(points);
-    for (std::size_t s = 0; s < runs.size(); ++s)
-        if (weights[s] > 0)
-            for (std::size_t p = 0; p < points; ++p)
-                means[p] += weights[s] * runs[s]->results()[p].luminance.mean;
+    PooledMeans means{std::vector<double>(points), std::vector<double>(points)};
+    for (std::size_t s = 0; s < runs.size(); ++s) {
+        if (!(weights[s] > 0)) continue;
+        for (std::size_t p = 0; p < points; ++p) {
+            const Moments& own = runs[s]->results()[p].luminance;
+            means.values[p] += weights[s] * own.mean;
+            if (own.count > 1) means.errors[p] += weights[s] * own.mean_se();
+        }
+    }
     return means;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/compare/measurements.h"
+#include "mis/compare/pool.h"
 #include "mis/compare/study_points.h"
 #include "mis/engine/lit_scene.h"
 
@@ -60,7 +61,7 @@ public:
     std::uint64_t invalid_at(std::size_t tile) const { return tiles_[tile].cost.invalid; }
 
     /// scale: μ² + ε² of every point.
-    StrategyMeasurements measurements(std::span<const double> scale) const;
+    StrategyMeasurements measurements(const RelativeScale& scale) const;
 
 private:
     /// What a replicate's samples came to: sums over a tile's points, times the weights beside.
@@ -96,7 +97,10 @@ private:
 std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs);
 
 /// μ of every point: the means of the strategies by pooling_weights(). All 0 where none was run.
-std::vector<double> pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
-                                 std::size_t points);
+struct PooledMeans {
+    std::vector<double> values;
+    std::vector<double> errors;  ///< standard errors of the values, were all strategies one
+};
+PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs, std::size_t points);
 
 }  // namespace mis

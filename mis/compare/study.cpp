@@ -307,13 +307,14 @@ private:
     /// share: of the probabilities of error that this look spends.
     void rank_now(double share)
     {
-        const RelativeScale scale =
-            relative_scale(pooled_means(study_.runs, study_.points->shading.points.size()),
-                           *study_.points, scene_.scene().camera.has_value());
+        PooledMeans means = pooled_means(study_.runs, study_.points->shading.points.size());
+        RelativeScale scale = relative_scale(std::move(means.values), *study_.points,
+                                             scene_.scene().camera.has_value());
+        scale.mean_errors = std::move(means.errors);
         study_.report.epsilon = scale.epsilon;
         SceneMeasurements scene{points(), {}};
         for (std::size_t s = 0; s < strategies_.size(); ++s)
-            scene.strategies.push_back(measured(s, scale.squares));
+            scene.strategies.push_back(measured(s, scale));
         const std::vector<PairReport> earlier =
             stops_when_settled() ? std::move(study_.report.pairs) : std::vector<PairReport>();
         Ranking ranking = rank(
@@ -326,7 +327,7 @@ private:
         study_.report.seconds = seconds_since(start_);
     }
 
-    StrategyMeasurements measured(std::size_t s, const std::vector<double>& scale) const
+    StrategyMeasurements measured(std::size_t s, const RelativeScale& scale) const
     {
         if (!study_.runs[s]) {
             StrategyMeasurements m;

@@ -124,7 +124,7 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
     const Json report{{"format", "mis-explain/1"}, {"version", MIS_VERSION},
                       {"command", run.command},    {"seed", run.seed},
                       {"threads", run.threads},    {"scenes", Json::array({scene})}};
-    write_text(path, report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_text(path, json_text(report));
 }
 
 }  // namespace mis

@@ -1,5 +1,7 @@
 #include "mis/io/integral_report.h"
 
+#include "mis/io/json_parts.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -76,7 +78,7 @@ std::string integral_json(const IntegralReport& report)
     for (const IntegralReport::Entry& entry : report.densities)
         json["densities"].push_back(density(entry));
     // A command line may hold bytes that are not UTF-8; JSON cannot.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 std::string integral_csv(const IntegralReport& report)

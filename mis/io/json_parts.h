@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
+#include <string>
 
 namespace mis {
 
@@ -13,41 +13,18 @@ namespace mis {
 using OrderedJson = nlohmann::ordered_json;
 
 /// null where it is not finite.
-inline OrderedJson json_figure(double value)
-{
-    return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
-}
+OrderedJson json_figure(double value);
 
-inline OrderedJson json_text_or_null(const std::string& text)
-{
-    return text.empty() ? OrderedJson(nullptr) : OrderedJson(text);
-}
+/// null where it is empty.
+OrderedJson json_text_or_null(const std::string& text);
 
-inline OrderedJson json_interval(const Interval& x)
-{
-    return {{"value", json_figure(x.value)},
-            {"low", json_figure(x.low)},
-            {"high", json_figure(x.high)}};
-}
+OrderedJson json_interval(const Interval& x);
 
 /// A strategy, as data; "counts" are draws per sample, light and BSDF.
-inline OrderedJson json_identity(const Strategy& s)
-{
-    return {{"name", name_of(s)},
-            {"policy", json_text_or_null(s.policy)},
-            {"heuristic", json_text_or_null(s.heuristic)},
-            {"technique", s.technique},
-            {"model", s.model == Model::multi ? "multi" : "one-sample"},
-            {"counts", s.chooses_light() ? s.heuristic == "light" ? OrderedJson{s.counts[0], 0}
-                                                                  : OrderedJson(s.counts)
-                                         : OrderedJson{0, 1}}};
-}
+OrderedJson json_identity(const Strategy& s);
 
 /// Indented, with a line feed at the end. A command line or a file name may hold bytes that are not
 /// UTF-8; JSON cannot.
-inline std::string json_text(const OrderedJson& json)
-{
-    return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
-}
+std::string json_text(const OrderedJson& json);
 
 }  // namespace mis
