@@ -138,7 +138,7 @@ void print_tables()
             continue;
         }
         bool is_shown = false;
-        for (const char* name : {"all/light", "all/power", "brdf"})
+        for (const char* name : {"all/light", "all/light/projected", "all/power", "brdf"})
             is_shown |= print_row(c, ready, name, false, worst);
         if (!is_shown) print_row(c, ready, "all/light", true, worst);
     }
