@@ -361,7 +361,8 @@ TEST(CommandLine, CompareLeavesAReportFolder)
     const TemporaryFolder folder;
     const std::string out = " --out '" + (folder / "report").string() + "'";
     const std::string two = "compare " + scene("single") + " " + scene("veach") + small_run + out;
-    ASSERT_EQ(mis_with(two).exit, 0);
+    const Outcome written = mis_with(two);
+    ASSERT_EQ(written.exit, 0) << written.error;
     EXPECT_EQ(files_in(folder / "report"),
               (std::set<std::string>{"maps-1.exr", "maps-2.exr", "report.html", "report.json",
                                      "strategies.csv"}));
