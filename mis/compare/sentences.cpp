@@ -124,15 +124,34 @@ private:
         say_least_variance(best);
     }
 
+    /// Those that could not be resolved, but are ahead of `best` by the samples that they have.
+    std::vector<std::string> perhaps_better(int best) const
+    {
+        std::vector<std::string> names;
+        for (int i = 0; i < count(); ++i) {
+            const StrategyReport &s = of(i), &b = of(best);
+            const bool is_ahead = is_timed(best)
+                                      ? s.seconds_to_1_percent.value < b.seconds_to_1_percent.value
+                                      : s.variance.value < b.variance.value;
+            if (s.status == Status::not_resolved && is_ahead) names.push_back(name(i));
+        }
+        return names;
+    }
+
     void say_how_sure(int best)
     {
+        const auto perhaps = perhaps_better(best);
+        if (!perhaps.empty())
+            say("Not yet sure: " + listed(perhaps) + (perhaps.size() == 1 ? " is" : " are") +
+                " not resolved, and ahead of it by the samples so far; more time would tell");
         const auto tied = standing(best, Verdict::tied),
                    undecided = standing(best, Verdict::undecided);
         const char* what = is_timed(best) ? "time to 1 % error" : "variance";
         if (scene_.pairs.empty()) return say("It is the only one that could be ranked");
         if (tied.empty() && undecided.empty())
-            return say(std::string("It is sure to lead in ") + what +
-                       " (95 %, all pairs together)");
+            return say((perhaps.empty() ? "It is sure to lead in "
+                                        : "Of those that are resolved it is sure to lead in ") +
+                       std::string(what) + " (95 %, all pairs together)");
         if (!tied.empty())
             say(listed(tied) + (tied.size() == 1 ? " is" : " are") + " as good: tied with it in " +
                 what + " within " + percent(margin_));

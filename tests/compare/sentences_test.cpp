@@ -80,6 +80,28 @@ TEST(Sentences, NameTiesAndTheUndecided)
     expect_said(text, "times as many samples) would decide.");
 }
 
+TEST(Sentences, DoNotCallSureWhatAnUnresolvedStrategyMayBeat)
+{
+    // Some 3 samples of 16384 carry the variance of `lucky`, which is far below that of `a`.
+    const SampleOf lucky = [](Random& bits) {
+        return uniform_samples(1e-3)(bits) + (std::bernoulli_distribution(2e-4)(bits) ? 16 : 0);
+    };
+    const std::string text =
+        all_of(scene_of({simulate("a", uniform_samples(0.3)), simulate("b", uniform_samples(0.9)),
+                         simulate("lucky", lucky)}));
+    expect_said(text, "Use a/power");
+    expect_said(text, "Not yet sure: lucky/power is not resolved, and ahead of it by the samples");
+    expect_said(text, "Of those that are resolved it is sure to lead in time to 1 % error");
+    EXPECT_EQ(text.find("It is sure to lead"), std::string::npos) << text;
+
+    const std::string behind =
+        all_of(scene_of({simulate("a", uniform_samples(0.3)), simulate("b", uniform_samples(0.9)),
+                         simulate("late", rare_samples(1e-4))}));
+    expect_said(behind, "late/power is not resolved");
+    expect_said(behind, "It is sure to lead in time to 1 % error");
+    EXPECT_EQ(behind.find("ahead of it"), std::string::npos) << behind;
+}
+
 TEST(Sentences, GiveTheReasonOfWhatIsExcluded)
 {
     StrategyMeasurements dear;
