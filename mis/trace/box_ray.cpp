@@ -4,6 +4,8 @@
 #include <immintrin.h>
 #endif
 
+#include <bit>
+
 namespace mis {
 
 namespace {

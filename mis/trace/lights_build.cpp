@@ -1,5 +1,6 @@
 #include "mis/trace/lights.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
