@@ -79,7 +79,7 @@ private:
 
     bool is_streamed() const
     {
-        return levels_.size() == 2 && levels_[0].key == streamed_list_ &&
+        return sink_ && levels_.size() == 2 && levels_[0].key == streamed_list_ &&
                levels_[1].container->is_array();
     }
 

@@ -140,6 +140,8 @@ TEST(ReportRead, RefusesWhatIsTooDeepOrTooLarge)
     refused("{\"format\": \"mis-report/1\", \"seed\": 1e999}");
     refused("");
     refused("[]");
+    refused("[[1]]");
+    refused("{\"\": [1]}");
     refused("{\"format\": \"mis-report/1\"");
 }
 
