@@ -2,9 +2,10 @@
  * mis for hosts in C and in languages that call C: direct lighting at a point from spherical
  * lights. The same engine as mis/engine/direct.h, with the strategy chosen by name at run time.
  * Lengths are in scene units, directions are unit vectors in scene axes, radiance is linear RGB in
- * W/(sr m^2), densities are per steradian. No global state; nothing is printed; no call but
- * *_create and *_assign allocates. Many threads may read a mis_lights that nobody changes; a
- * mis_point is one thread's. */
+ * W/(sr m^2), densities are per steradian. No global state; nothing is printed. What allocates:
+ * *_create, *_assign, a *_replace that makes tables anew, and the first *_move_to after there are
+ * more lights than ever before. Many threads may read a mis_lights that nobody changes; a mis_point
+ * is one thread's. */
 #ifndef MIS_BIND_C_H
 #define MIS_BIND_C_H
 
