@@ -22,8 +22,8 @@ template <class H> double weight_at(double ratio)
 template <class H> std::vector<double> jumps_of()
 {
     std::vector<double> jumps;
-    constexpr double steps_per_octave = 8;
-    for (double k = -40 * steps_per_octave; k < 40 * steps_per_octave; ++k) {
+    constexpr int steps_per_octave = 8;
+    for (int k = -40 * steps_per_octave; k < 40 * steps_per_octave; ++k) {
         double low = std::exp2((k - 0.37) / steps_per_octave),
                high = std::exp2((k + 0.63) / steps_per_octave);
         while (std::nextafter(low, high) < high) {

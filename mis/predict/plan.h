@@ -44,7 +44,7 @@ struct Plan {
     std::vector<LightDensity> densities;
     std::vector<Group> groups;
 
-    Plan(const Scene& scene, const Probe& probe, std::span<const Strategy> strategies);
+    Plan(const Scene& scene, const Probe& probe, std::span<const Strategy> asked);
 
 private:
     StrategyPlan planned(const Scene& scene, const Probe& probe, const Strategy& s);

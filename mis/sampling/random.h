@@ -27,8 +27,8 @@ using Words = std::array<std::uint32_t, 4>;
 /// Source: Salmon et al. 2011, "Parallel Random Numbers: As Easy as 1, 2, 3", table 2.
 namespace philox {
 inline constexpr int rounds = 7;
-inline constexpr std::uint32_t multiplier0 = 0xD2511F53u, multiplier1 = 0xCD9E8D57u,
-                               step0 = 0x9E3779B9u, step1 = 0xBB67AE85u;
+inline constexpr std::uint32_t multiplier0 = 0xD2511F53U, multiplier1 = 0xCD9E8D57U,
+                               step0 = 0x9E3779B9U, step1 = 0xBB67AE85U;
 
 MIS_INLINE Words one_round(const Words& c, std::uint32_t key0, std::uint32_t key1)
 {

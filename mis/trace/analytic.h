@@ -14,7 +14,7 @@ public:
     explicit AnalyticTracer(const Scene& scene);
 
     void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const override;
-    std::optional<SurfaceHit> first_hit(const Vec3<double>& origin,
+    std::optional<SurfaceHit> first_hit(const Vec3<double>& start,
                                         const Vec3<double>& direction) const override;
     Vec3<double> origin() const override;
     double offset_at(const Vec3<double>& x) const override;
