@@ -61,10 +61,12 @@ std::string carried_by_few(const Participation& participation, const StrategyMea
                            const char* what)
 {
     return std::string("its ") + what + " is carried by about " + count(participation.number()) +
-           " of " + observations_in_words(s) + "; " + count(least_participation) + " are needed" +
+           " of " + observations_in_words(s) + "; " + count(least_participation_to_rank) +
+           " are needed" +
            (participation.number() > 0
                 ? ", about " +
-                      number(std::max(1.1, least_participation / participation.number()), 2) +
+                      number(std::max(1.1, least_participation_to_rank / participation.number()),
+                             2) +
                       " times as many samples as now"
                 : "");
 }
@@ -84,7 +86,7 @@ double resolving_factor(const StrategyMeasurements& s)
     double factor = audit_fault(s).empty() ? 1 : 2;
     if (s.replicates.size() < 2 || s.pooled.variance <= 0) return 4;
     for (const Participation* p : {&s.pooled.participation, &s.pooled.relative_participation})
-        if (p->sum_d4 > 0) factor = std::max(factor, least_participation / p->number());
+        if (p->sum_d4 > 0) factor = std::max(factor, least_participation_to_rank / p->number());
     const double spread = relative_error(s, &ReplicateValues::variance) / largest_relative_error;
     return std::isfinite(spread) ? std::max(factor, spread * spread) : std::max(factor, 4.0);
 }
@@ -101,10 +103,10 @@ std::string why_not_resolved(const StrategyMeasurements& s)
         return "all of its " + observations_in_words(s) +
                " say the same, which proves nothing: rare samples may not have been drawn "
                "yet";
-    if (pooled.participation.number() < least_participation)
+    if (pooled.participation.number() < least_participation_to_rank)
         return carried_by_few(pooled.participation, s, "variance");
     if (pooled.relative_participation.sum_d4 > 0 &&
-        pooled.relative_participation.number() < least_participation)
+        pooled.relative_participation.number() < least_participation_to_rank)
         return carried_by_few(pooled.relative_participation, s, "relative variance");
     const double error = relative_error(s, &ReplicateValues::variance);
     if (!(error <= largest_relative_error))

@@ -13,6 +13,11 @@ namespace mis {
 /// times.
 inline constexpr double least_participation = 100;
 
+/// Of those that are to be ranked it takes more. Draws that meet a sharp lobe by chance have tails
+/// of a power law: on `veach` some 100 to 150 samples carry the variance of `solid-angle/light`,
+/// however many are drawn, and what was not drawn yet would change it.
+inline constexpr double least_participation_to_rank = 200;
+
 /// A relative standard error of the variance above this, and it is not resolved, however many
 /// samples carry it.
 inline constexpr double largest_relative_error = 0.25;
