@@ -64,9 +64,10 @@ template <class T> MIS_INLINE T chord2(const TiltedCap<T>& cap)
     using std::abs;
     const T zero = number<T>(0), least = number<T>(1e-37);
     const T s = max_of(cap.sin_max, least), m = min_of(T(abs(cap.cos_beta)), s);
-    const T by_sines = (s - m) / s * ((s + m) / s);
+    const T inverse = number<T>(1) / s;
+    const T by_sines = (s - m) * inverse * ((s + m) * inverse);
     const T by_cosines =
-        (cap.sin_beta - cap.cos_max) * (cap.sin_beta + cap.cos_max) / max_of(T(s * s), least);
+        (cap.sin_beta - cap.cos_max) * inverse * ((cap.sin_beta + cap.cos_max) * inverse);
     return max_of(select(s < number<T>(0.7), by_sines, by_cosines), zero);
 }
 

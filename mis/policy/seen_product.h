@@ -52,9 +52,9 @@ public:
                                    const Vec3<T>& to_center) const
     {
         const Vec3<T> wi = nearest_to_mirror(cap, frame_.to_local(to_center));
-        const T cap_over_lobe =
-            cap.sin_max * (cap.sin_max * irradiance) / max_of(T(extent_ * wi.z), number<T>(1e-37));
-        return {flat_, lobe_at(wi) / max_of(cap_over_lobe, number<T>(1))};
+        const T seen = cap.sin_max * (cap.sin_max * irradiance),
+                lobe = max_of(T(extent_ * wi.z), number<T>(1e-37));
+        return {flat_, lobe_at(wi) * (lobe / max_of(seen, lobe))};
     }
 
     /// Of directions about `middle` (unit, in scene axes) that vary by `variance` (rad²) along
@@ -62,19 +62,21 @@ public:
     MIS_INLINE SpreadReflected<T> of_spread(const Vec3<T>& middle, const T& variance) const
     {
         using std::sqrt;
-        const T one = number<T>(1), lobe_variance = extent_ * number<T>(0.5 / pi<double>);
-        const T q = min_of(T(variance / lobe_variance), number<T>(1e12));
+        const T one = number<T>(1), inverse_lobe_variance = number<T>(2 * pi<double>) / extent_;
+        const T q = min_of(T(variance * inverse_lobe_variance), number<T>(1e12));
         const T wide = one + q, wider = wide + q;
+        const T over_both = one / (wide * wider), over_wide = wider * over_both;
         const Vec3<T> mirror{-wo_.x, -wo_.y, wo_.z}, away = frame_.to_local(middle) - mirror;
-        Vec3<T> wi = mirror + away / sqrt(wide);
+        Vec3<T> wi = mirror + away * sqrt(over_wide);
         wi.z = max_of(wi.z, number<T>(1e-4));
         const T away2 = length2(away);
-        const T slope = min_of(T(away2 / lobe_variance * (q / wide) / wider), number<T>(4));
+        const T slope = min_of(T(away2 * inverse_lobe_variance * (q * over_both)), number<T>(4));
         const T growth = one + slope * (one + slope * number<T>(0.5));  // of exp the first terms
         const T tail = peak_ * number<T>(outlying) *
                        (variance / max_of(T(variance + away2), number<T>(1e-37)));
-        return {flat_, max_of(lobe_at(normalized(wi)), tail) / wide,
-                wide / wider * wide * growth - one};
+        const Vec3<T> unit_wi = wi * T(one / length(wi));
+        return {flat_, max_of(lobe_at(unit_wi), tail) * over_wide,
+                wide * wide * (wide * over_both) * growth - one};
     }
 
 private:
@@ -134,7 +136,8 @@ MIS_INLINE T reflected_weight(const Reflection& reflection, const SeenLight<T>& 
 {
     const TiltedCap<T> cap = light.tilted_cap(n);
     const T irradiance = seen_irradiance_over_sin2(light, cap, from_origin);
-    const Vec3<T> to_center = light.to_center / max_of(light.distance, number<T>(1e-37));
+    const Vec3<T> to_center =
+        light.to_center * T(number<T>(1) / max_of(light.distance, number<T>(1e-37)));
     const Reflected<T> reflected = reflection.of_cap(cap, irradiance, to_center);
     return radiant_irradiance(light, cap, irradiance) * (reflected.flat + reflected.lobe);
 }

@@ -99,7 +99,7 @@ MIS_OWN_COPY void weigh_parts(const Reflection& reflection, const TreePoint<Scal
 
         const T spread = spread2 * inverse * inverse;
         const SpreadReflected<T> reflected = reflection.of_spread(
-            Vec3<T>(to_middle / max_of(d, least)), T(spread * number<T>(1.0 / 3)));
+            Vec3<T>(to_middle * T(one / max_of(d, least))), T(spread * number<T>(1.0 / 3)));
         store_lanes(&found[k], T(irradiance * (reflected.flat + reflected.lobe)));
         const T uneven =
             spread + min_of(T(variance / max_of(T(rise * rise), least)), number<T>(1e4));
