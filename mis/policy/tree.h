@@ -18,8 +18,8 @@ public:
     static constexpr std::string_view summary =
         "nearly as product, by a hierarchy over the lights: O(log M)";
     static constexpr bool draws_every_light = false, reads_all_lights = false;
-    /// Groups opened at a point: of up to 480 lights all, where `tree` is `product`.
-    static constexpr std::size_t most_open = 32;
+    /// Groups opened at a point: of up to some 330 lights all, where `tree` is `product`.
+    static constexpr std::size_t most_open = 24;
     static constexpr std::size_t table_bytes(std::size_t)
     {
         return Scratch::bytes_for<TreePoint<double>>(1) + Scratch::bytes_for<OpenGroup>(most_open);
