@@ -55,7 +55,7 @@ struct Maps {
     WinnerMap by_variance, by_efficiency;
     int winner_square = 1;  ///< winners are told for squares of so many pixels, from all lit ones
     LightMap lights;
-    std::vector<Light> scene_lights;  ///< [LightIndex]
+    Lights scene_lights;  ///< [LightIndex]
 };
 
 /// The maps of a study of a scene with a camera. at: samples per point that the efficiency is for.

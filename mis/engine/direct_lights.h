@@ -121,7 +121,7 @@ private:
     LightHierarchy hierarchy_;
     Policy policy_;
     Vec3<double> origin_{0};
-    std::vector<T> storage_;
+    LargeVector<T> storage_;
     LightColumns<T> columns_;
     double largest_radius_ = 0;
 };

@@ -13,7 +13,7 @@ namespace mis {
 /// scene's. Linear in the number of lights.
 template <class T>
 LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& origin,
-                                   std::vector<T>& storage, const LightOrder* order = nullptr)
+                                   LargeVector<T>& storage, const LightOrder* order = nullptr)
 {
     const std::size_t count = lights.size(), padded = (count + 15) / 16 * 16;
     storage.assign(

@@ -10,8 +10,8 @@ namespace mis {
 /// choice's bits run through the lights' probabilities in this order, bits that are spread evenly
 /// spread the choices evenly over the scene. The numbers of the lights stay what they are.
 struct LightOrder {
-    std::vector<LightIndex> light_at;  ///< [place]
-    std::vector<LightIndex> place_of;  ///< [light]
+    LargeVector<LightIndex> light_at;  ///< [place]
+    LargeVector<LightIndex> place_of;  ///< [light]
 };
 
 /// By halves: the lights cut in two at the median of their widest extent, and each half likewise,

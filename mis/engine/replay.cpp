@@ -48,7 +48,7 @@ Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Til
     const Pipeline<T>& pipeline = strategy.pipeline(tile.material);
     TileJob<T> job = strategy.job(tile, {&point, 1});
     const std::size_t lights = scene.scene().lights.size();
-    std::vector<T> columns;
+    LargeVector<T> columns;
     if (pipeline.reads_all_lights || lights <= most_screened_lights)
         job.columns = fill_light_columns(*job.lights, job.origin, columns, job.order);
     const auto batch = std::make_unique<Batch<T>>();

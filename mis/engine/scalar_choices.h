@@ -62,7 +62,7 @@ private:
         prepare_;
     bool reads_all_lights_ = false;
     Scratch scratch_;
-    std::vector<double> columns_;
+    LargeVector<double> columns_;
     Table table_;
 };
 

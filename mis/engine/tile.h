@@ -64,7 +64,7 @@ private:
 
     std::unique_ptr<Batch<T>> batch_;
     std::unique_ptr<Scratch> scratch_;
-    std::vector<T> columns_;
+    LargeVector<T> columns_;
     Column<double> luminance_;
 };
 

@@ -7,7 +7,6 @@
 
 #include <concepts>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <string_view>
 
@@ -39,10 +38,7 @@ template <class T> struct ChoicePoint {
 class Scratch {
 public:
     /// Allocates; take() does not.
-    explicit Scratch(std::size_t bytes)
-        : storage_(std::make_unique<std::byte[]>(bytes)), size_(bytes)
-    {
-    }
+    explicit Scratch(std::size_t bytes) : storage_(bytes), size_(bytes) {}
     /// Takes all back.
     void clear() { used_ = 0; }
     /// Bytes in all.
@@ -54,7 +50,7 @@ public:
     /// left().
     template <class N> MIS_INLINE std::span<N> take(std::size_t n)
     {
-        std::byte* start = storage_.get() + used_;
+        std::byte* start = storage_.data() + used_;
         const auto misaligned = reinterpret_cast<std::uintptr_t>(start) % 64;
         if (misaligned != 0) start += 64 - misaligned;
         used_ += bytes_for<N>(n);
@@ -67,7 +63,7 @@ public:
     }
 
 private:
-    std::unique_ptr<std::byte[]> storage_;
+    LargeVector<std::byte> storage_;
     std::size_t size_ = 0, used_ = 0;
 };
 
@@ -134,9 +130,9 @@ template <class T> struct SeenLight {
     MIS_INLINE TiltedCap<T> tilted_cap(const Vec3<T>& n) const
     {
         using std::sqrt;
-        const T d = max_of(distance, radius);
-        return {radius / d, sqrt((d - radius) * (d + radius)) / d, dot(n, to_center) / d,
-                length(cross(n, to_center)) / d};
+        const T d = max_of(distance, radius), inverse = number<T>(1) / d;
+        return {radius * inverse, sqrt((d - radius) * (d + radius)) * inverse,
+                dot(n, to_center) * inverse, length(cross(n, to_center)) * inverse};
     }
 };
 

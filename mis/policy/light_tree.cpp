@@ -41,7 +41,7 @@ struct LightTree::Builder {
     LightTree& tree;
     const Lights& all;
     double total_power = 0;
-    std::vector<Item> items = {};
+    LargeVector<Item> items = {};
 
     void run()
     {

@@ -62,9 +62,9 @@ public:
 private:
     struct Builder;
 
-    std::vector<NodeGroup> nodes_;
-    std::vector<LightGroup> lights_;
-    std::vector<std::uint32_t> slot_of_;
+    LargeVector<NodeGroup> nodes_;
+    LargeVector<LightGroup> lights_;
+    LargeVector<std::uint32_t> slot_of_;
     Vec3<double> middle_{0};
     double reach_ = 0;
 };

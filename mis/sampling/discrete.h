@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/math/lanes.h"
+#include "mis/math/large_vector.h"
 
 #include <array>
 #include <cstdint>
@@ -59,7 +60,7 @@ private:
     {
         return static_cast<float>(share < 0.5 ? share : share - 1);
     }
-    std::vector<Cell> cells_;
+    LargeVector<Cell> cells_;
 };
 
 /// An index in proportion to weights that change from point to point: a running sum over storage of

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "mis/math/large_vector.h"
 #include "mis/math/vec.h"
 
 #include <cstdint>
 #include <numbers>
-#include <vector>
 
 namespace mis {
 
@@ -24,7 +24,7 @@ struct Light {
 };
 
 /// All lights of a scene, in the order of the file.
-using Lights = std::vector<Light>;
+using Lights = LargeVector<Light>;
 
 /// Emitted radiance, W·sr⁻¹·m⁻².
 inline Vec3<double> radiance(const Light& light)

@@ -169,8 +169,8 @@ private:
 
     const Lights* lights_;
     Vec3<double> origin_{0};
-    std::vector<Node> nodes_;
-    std::vector<LightIndex> order_;
+    LargeVector<Node> nodes_;
+    LargeVector<LightIndex> order_;
 };
 
 /// The lights along a ray, one node of the hierarchy at a time.

@@ -127,8 +127,8 @@ private:
 /// Splits by the surface-area heuristic over 16 bins of the centres (Wald 2007), eight at a time.
 struct LightHierarchy::Builder {
     LightHierarchy& tree;
-    std::vector<Item> items = {};
-    std::vector<LightIndex> leaves = {};  ///< the order in which nodes name their lights
+    LargeVector<Item> items = {};
+    LargeVector<LightIndex> leaves = {};  ///< the order in which nodes name their lights
 
     void run()
     {

@@ -117,7 +117,7 @@ std::vector<T> probabilities_of(std::string_view policy, const TestScene& test,
     const Strategy strategy = parse_strategy(std::string(policy) + "/light");
     const ReadyStrategy<T> ready(test.lit, strategy, kernels, 1);
     TileJob<T> job = ready.job(test.probes.tiles.at(0), test.probes.points);
-    std::vector<T> storage;
+    LargeVector<T> storage;
     job.columns = fill_light_columns(test.scene.lights, job.origin, storage);
     const auto stages = *std::find_if(kernels.policies.begin(), kernels.policies.end(),
                                       [&](const auto& p) { return p.name == policy; });

@@ -67,7 +67,7 @@ public:
 
 private:
     P policy_;
-    std::vector<S> storage_;
+    LargeVector<S> storage_;
     LightColumns<S> columns_;
     Scratch scratch_;
     decltype(policy_.template prepare<T>(std::declval<const ChoicePoint<S>&>(), columns_,

@@ -56,10 +56,10 @@ std::string text(const Light& light)
                        light.radius, text(radiance(light)));
 }
 
-template <class T> std::string list(const std::vector<T>& all)
+std::string list(const std::ranges::range auto& all)
 {
     std::vector<std::string> texts;
-    for (const T& one : all) texts.push_back(text(one));
+    for (const auto& one : all) texts.push_back(text(one));
     return fmt::format("[\n    {}\n  ]", fmt::join(texts, ",\n    "));
 }
 

@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -20,13 +21,14 @@ pybind11::array_t<Scalar> array_of(std::vector<T>&& values, pybind11::array::Sha
 }
 
 /// A read-only view of one member of every element of a vector that `owner` keeps as it is.
-template <class Scalar, class T>
-pybind11::array_t<Scalar> view_of(const std::vector<T>& elements, const Scalar* first_member,
+template <class Scalar, std::ranges::contiguous_range Elements>
+pybind11::array_t<Scalar> view_of(const Elements& elements, const Scalar* first_member,
                                   int components, pybind11::handle owner)
 {
     const auto count = static_cast<pybind11::ssize_t>(elements.size());
     pybind11::array::ShapeContainer shape{count};
-    pybind11::array::StridesContainer strides{static_cast<pybind11::ssize_t>(sizeof(T))};
+    pybind11::array::StridesContainer strides{
+        static_cast<pybind11::ssize_t>(sizeof(*elements.data()))};
     if (components > 1) {
         shape->push_back(components);
         strides->push_back(static_cast<pybind11::ssize_t>(sizeof(Scalar)));
