@@ -21,17 +21,23 @@ template <class T> MIS_INLINE void fetch_ahead(const TileJob<T>& job, LightIndex
 template <class Policy, class Table, class T>
 void choose_light(const TileJob<T>& job, Batch<T>& batch)
 {
-    for (int row = 0; row < batch.rows; ++row) {
-        const auto i = static_cast<std::size_t>(row);
-        if constexpr (Policy::draws_every_light) {
-            batch.light[i] = static_cast<LightIndex>(batch.draw / job.draws_per_light);
-            batch.probability[i] = 1;
-        } else {
-            const Choice choice = table_of<Table>(batch, batch.point[i]).choose(batch.bits[i]);
-            batch.light[i] = job.light_at(choice.light);
-            batch.probability[i] = static_cast<T>(choice.probability);
-            if (choice.light >= 0) fetch_ahead(job, batch.light[i]);
-        }
+    const auto rows = static_cast<std::size_t>(batch.rows);
+    const auto put = [&](std::size_t i, const Choice& choice) {
+        batch.light[i] = job.light_at(choice.light);
+        batch.probability[i] = static_cast<T>(choice.probability);
+        if (choice.light >= 0) fetch_ahead(job, batch.light[i]);
+    };
+    const auto table = [&](std::size_t i) -> const Table& {
+        return table_of<Table>(batch, batch.point[i]);
+    };
+    if constexpr (Policy::draws_every_light) {
+        std::fill_n(batch.light.begin(), rows,
+                    static_cast<LightIndex>(batch.draw / job.draws_per_light));
+        std::fill_n(batch.probability.begin(), rows, T(1));
+    } else if constexpr (requires { Policy::draws_go_together; }) {
+        Table::template choose_each<batch_capacity>(std::span(batch.bits).first(rows), table, put);
+    } else {
+        for (std::size_t i = 0; i < rows; ++i) put(i, table(i).choose(batch.bits[i]));
     }
 }
 

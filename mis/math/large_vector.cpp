@@ -14,7 +14,12 @@ void wish_for_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::s
     constexpr std::uintptr_t page = 4096;  // the smallest that there are; a wrong guess is refused
     const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) / page * page,
                end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / page * page;
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+    if (begin >= end) return;
+    auto* const pages = reinterpret_cast<void*>(begin);
+    if (madvise(pages, end - begin, MADV_HUGEPAGE) != 0) return;
+    // What the heap hands out again lies in small pages as yet (Linux 6.1 and later).
+    constexpr int collapse = 25;  // MADV_COLLAPSE, which the C library's headers may not know
+    madvise(pages, end - begin, collapse);
 #endif
 }
 

@@ -17,7 +17,8 @@ public:
     static constexpr std::string_view name = "tree";
     static constexpr std::string_view summary =
         "nearly as product, by a hierarchy over the lights: O(log M)";
-    static constexpr bool draws_every_light = false, reads_all_lights = false;
+    static constexpr bool draws_every_light = false, reads_all_lights = false,
+                          draws_go_together = true;
     /// Groups opened at a point: of up to some 330 lights all, where `tree` is `product`.
     static constexpr std::size_t most_open = 24;
     static constexpr std::size_t table_bytes(std::size_t)
@@ -37,57 +38,132 @@ public:
             return follow(KnownPath(tree_->slot_of(light))).probability;
         }
 
+        /// What table_of(i).choose(bits[i]) gives, to put(i, choice), in no order. The draws go
+        /// down together, a group each at a time, so that no draw waits alone for what it reads.
+        template <std::size_t most, class TableOf, class Put>
+        MIS_INLINE static void choose_each(std::span<const std::uint64_t> bits,
+                                           const TableOf& table_of, const Put& put)
+        {
+            std::array<Descent, most> below;  // NOLINT: filled as far as it is read
+            std::size_t count = 0;
+            for (std::size_t i = 0; i < bits.size(); ++i) {
+                Descent& draw = below[count];
+                draw = {&table_of(i), i, DrawnPath(bits[i])};
+                if (draw.table->follow_open(draw.path, draw.at, draw.choice)) {
+                    draw.table->fetch_ahead(draw.at);
+                    ++count;
+                } else {
+                    put(i, draw.choice);
+                }
+            }
+            while (count > 0) {
+                std::size_t kept = 0;
+                for (std::size_t i = 0; i < count;) {
+                    const Table& table = *below[i].table;  // its draws stand together
+                    visit_reflection<T>(
+                        table.at_->point, [&](const auto& reflection) __attribute__((
+                                              always_inline)) {
+                            for (; i < count && below[i].table == &table; ++i) {
+                                Descent& draw = below[i];
+                                if (table.step(reflection, draw.path, draw.at, draw.choice)) {
+                                    table.fetch_ahead(draw.at);
+                                    below[kept++] = draw;
+                                } else {
+                                    put(draw.number, draw.choice);
+                                }
+                            }
+                        });
+                }
+                count = kept;
+            }
+        }
+
     private:
         friend TreePolicy;
         using Lights = LightTree::LightGroup;
         using Parts = LightTree::NodeGroup;
 
-        /// Through the open groups, whose weights are known, then on.
+        /// Part k of a group.
+        struct Part {
+            const Parts* of = nullptr;
+            std::size_t k = 0;
+            std::uint32_t child() const { return of->child[k]; }
+        };
+        /// A draw on its way down.
+        struct Descent {
+            const Table* table = nullptr;
+            std::size_t number = 0;
+            DrawnPath path{0};
+            Part at;
+            Choice choice{no_light, 0};
+        };
+
         template <class Path> MIS_INLINE Choice follow(Path path) const
         {
             Choice choice{no_light, 0};
-            if (open_ == nullptr || !(open_[0].sums.back() > 0)) return choice;
+            Part at;
+            if (!follow_open(path, at, choice)) return choice;
+            visit_reflection<T>(
+                at_->point, [&](const auto& reflection) __attribute__((always_inline)) {
+                    while (step(reflection, path, at, choice)) {
+                    }
+                });
+            return choice;
+        }
+
+        /// Through the open groups, whose weights are known. Is there more below?
+        template <class Path>
+        MIS_INLINE bool follow_open(Path& path, Part& at, Choice& choice) const
+        {
+            if (open_ == nullptr || !(open_[0].sums.back() > 0)) return false;
             choice.probability = 1;
             for (const OpenGroup* open = open_;;) {
                 if (open->is_of_lights) {
                     take_light(path, tree_->lights()[open->group], open->sums, choice);
-                    return choice;
+                    return false;
                 }
-                const Parts& parts = tree_->nodes()[open->group];
-                const std::size_t k = path.part(open->sums, parts);
-                choice.probability *= share_of(open->sums, k);
-                if (open->opened[k] == 0) {
-                    if (choice.probability > 0) follow_below(path, parts, k, choice);
-                    return choice;
-                }
-                open = &open_[open->opened[k]];
+                at.of = &tree_->nodes()[open->group];
+                at.k = path.part(open->sums, *at.of);
+                choice.probability *= share_of(open->sums, at.k);
+                if (open->opened[at.k] == 0) return choice.probability > 0;
+                open = &open_[open->opened[at.k]];
             }
         }
 
-        /// From part k of a group down to a light, weighing what is met.
-        template <class Path>
-        MIS_INLINE void follow_below(Path& path, const Parts& from, std::size_t k,
-                                     Choice& choice) const
+        /// Into a part, weighing what is met there. Is there more below?
+        template <class Reflection, class Path>
+        MIS_INLINE bool step(const Reflection& reflection, Path& path, Part& at,
+                             Choice& choice) const
         {
-            visit_reflection<T>(
-                at_->point, [&](const auto& reflection) __attribute__((always_inline)) {
-                    LightRow sums;                     // NOLINT: filled before it is read
-                    LightTree::Row<Scalar<T>> unused;  // NOLINT
-                    const Parts* parts = &from;
-                    while (parts->is_lowest == 0) {
-                        parts = &tree_->nodes()[parts->child[k]];
-                        weigh_parts<T>(reflection, *at_, *parts, sums, unused);
-                        if (!sum_up(sums)) sums = parts->power, sum_up(sums);
-                        k = path.part(sums, *parts);
-                        choice.probability *= share_of(sums, k);
-                        if (!(choice.probability > 0)) return;
-                    }
-                    const Lights& lights = tree_->lights()[parts->child[k]];
-                    weigh_lights<T>(reflection, *at_, lights, sums);
-                    // All of them below the horizon, which was not seen from above: any will do.
-                    if (!sum_up(sums)) sums = lights.luminance_radius, sum_up(sums);
-                    take_light(path, lights, sums, choice);
-                });
+            LightRow sums;  // NOLINT: filled before it is read
+            if (at.of->is_lowest != 0) {
+                const Lights& lights = tree_->lights()[at.child()];
+                weigh_lights<T>(reflection, *at_, lights, sums);
+                // All of them below the horizon, which was not seen from above: any will do.
+                if (!sum_up(sums)) sums = lights.luminance_radius, sum_up(sums);
+                take_light(path, lights, sums, choice);
+                return false;
+            }
+            LightTree::Row<Scalar<T>> unused;  // NOLINT
+            at.of = &tree_->nodes()[at.child()];
+            weigh_parts<T>(reflection, *at_, *at.of, sums, unused);
+            if (!sum_up(sums)) sums = at.of->power, sum_up(sums);
+            at.k = path.part(sums, *at.of);
+            choice.probability *= share_of(sums, at.k);
+            return choice.probability > 0;
+        }
+
+        /// Asks for what step() will read.
+        MIS_INLINE void fetch_ahead(const Part& at) const
+        {
+            if (at.of->is_lowest != 0) fetch(tree_->lights()[at.child()]);
+            else fetch(tree_->nodes()[at.child()]);
+        }
+        template <class Group> MIS_INLINE static void fetch(const Group& group)
+        {
+            const auto* bytes = reinterpret_cast<const std::byte*>(&group);
+            for (std::size_t line = 0; line < sizeof(Group); line += 64)
+                __builtin_prefetch(bytes + line, 0, 2);
         }
 
         template <class Path>

@@ -59,6 +59,7 @@ public:
                                           columns_, scratch_))
     {
     }
+    const auto& table() const { return table_; }
     Choice choose(std::uint64_t bits) const override { return table_.choose(bits); }
     double probability(std::size_t j) const override
     {

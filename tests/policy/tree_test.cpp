@@ -130,6 +130,38 @@ TEST(TreePolicy, DrawsInLanesOfManyLightsEachAsOftenAsItSays)
     expect_as_many_draws_as_said<TestLanes<float>>();
 }
 
+/// At points of two surfaces, one after the other, and of no light.
+template <class T> void expect_draws_together_to_be_as_one_by_one()
+{
+    constexpr std::size_t draws = 256;
+    const Lights lights = lights_around(20'000);
+    const auto all = surfaces();
+    const auto dull = table_of<TreePolicy, T>(lights, all[0].view),
+               sharp = table_of<TreePolicy, T>(lights, all[5].view),
+               dark = table_of<TreePolicy, T>({}, all[0].view);
+    const auto at = [&](std::size_t i) -> const auto&
+    {
+        return i % 100 < 40 ? dull : i % 100 < 90 ? sharp : dark;
+    };
+    std::vector<std::uint64_t> bits;
+    for (std::size_t i = 0; i < draws; ++i) bits.push_back(random_bits(3, i));
+    std::vector<int> times(draws, 0);
+    using Table = std::remove_cvref_t<decltype(dull.table())>;
+    Table::template choose_each<draws>(
+        bits, [&](std::size_t i) -> const Table& { return at(i).table(); },
+        [&](std::size_t i, const Choice& choice) {
+            ++times[i];
+            EXPECT_EQ(choice.light, at(i).choose(bits[i]).light) << i;
+            EXPECT_EQ(choice.probability, at(i).choose(bits[i]).probability) << i;
+        });
+    EXPECT_EQ(times, std::vector<int>(draws, 1));
+}
+TEST(TreePolicy, DrawsTogetherAsOneByOne)
+{
+    expect_draws_together_to_be_as_one_by_one<double>();
+    expect_draws_together_to_be_as_one_by_one<TestLanes<float>>();
+}
+
 /// However little of it is above the horizon, and however far below its neighbours are.
 TEST(TreePolicy, ALightThatProductDrawsHasAProbability)
 {
