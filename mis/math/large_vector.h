@@ -27,9 +27,9 @@ template <class T> struct LargeAllocator {
         if (bytes >= large) wish_for_large_pages(memory, bytes);
         return static_cast<T*>(memory);
     }
-    void deallocate(T* memory, std::size_t count)
+    void deallocate(T* memory, std::size_t)
     {
-        ::operator delete(memory, count * sizeof(T), std::align_val_t(alignof(T)));
+        ::operator delete(memory, std::align_val_t(alignof(T)));
     }
     friend bool operator==(const LargeAllocator&, const LargeAllocator&) { return true; }
 };
