@@ -29,7 +29,7 @@ function hostile_scene() {
 }
 
 let page;
-const settled = () => page.until('document.querySelector("#hero-picture").dataset.painted && document.querySelector("#picture").dataset.painted');
+const settled = () => page.until('document.querySelector("#hero-picture").dataset.painted && document.querySelector("#picture").dataset.painted === `${view.mode} ${picture_layer()}`');
 const text = (selector) => page.value(`document.querySelector(${JSON.stringify(selector)}).innerText`);
 const painted = () => page.value('(() => { const c = document.querySelector("#picture"); return c.toDataURL(); })()');
 async function open(report) {
@@ -314,7 +314,7 @@ async function several_scenes() {
   assert.equal(await page.value('document.querySelector("#scene-name bdi").textContent'), hostile);
   assert.ok((await page.value('document.querySelector("#run").textContent')).includes(file));
   assert.equal(await page.value("document.querySelectorAll('img, b:not(.brand b)').length"), 0);
-  await page.until('document.querySelector("#picture").dataset.painted');
+  await page.until('document.querySelector("#picture").dataset.painted === `${view.mode} ${picture_layer()}`');
   nothing_went_wrong(report);
   console.log("ok: several scenes, and names that are markup show as text");
 }

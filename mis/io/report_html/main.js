@@ -126,9 +126,9 @@ async function show_pictures() {
 
 function start_viewer() {
   $("modes").append(...modes.map(([mode, text]) => make("button", { type: "button", role: "radio", "data-mode": mode, onclick: () => set_mode(mode) }, text)));
-  const tone = () => { $("exposure-value").textContent = `${$("exposure").value > 0 ? "+" : ""}${$("exposure").value} EV`; $("gamma-value").textContent = $("gamma").value; repaint(); };
-  $("exposure").oninput = $("gamma").oninput = tone;
-  tone();
+  const say_tone = () => { $("exposure-value").textContent = `${$("exposure").value > 0 ? "+" : ""}${$("exposure").value} EV`; $("gamma-value").textContent = $("gamma").value; };
+  $("exposure").oninput = $("gamma").oninput = () => { say_tone(); repaint(); };
+  say_tone();
   $("winner-by").onchange = repaint;
   $("zoom-in").onclick = () => zoom_by(2);
   $("zoom-out").onclick = () => zoom_by(.5);
