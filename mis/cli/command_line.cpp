@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
+#include <functional>
 #include <limits>
 
 namespace mis::cli {
@@ -45,6 +47,23 @@ template <class Number> std::string whole_number_fault(const std::string& text)
                        std::numeric_limits<Number>::max());
 }
 
+/// Likewise of a number that may be negative: the parser's own conversion would cut it off.
+std::string samples_fault(const std::string& text)
+{
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc{} && end == text.data() + text.size()) return "";
+    return fmt::format("found \"{}\"; a whole number of samples is needed", text);
+}
+
+/// An empty word, as of a variable that was not set, is not the same as no option.
+std::function<std::string(const std::string&)> refuse_empty(const std::string& allowed)
+{
+    return [allowed](const std::string& text) {
+        return text.empty() ? "found \"\"; " + allowed + " is needed" : "";
+    };
+}
+
 /// --threads, --seed, --quiet, --resolution, --effects, --sampler.
 void add_run_options(CLI::App& command, RunOptions& options)
 {
@@ -53,8 +72,9 @@ void add_run_options(CLI::App& command, RunOptions& options)
     command.add_option("--seed", options.seed, "seed of the random numbers")
         ->capture_default_str()
         ->check(whole_number_fault<std::uint64_t>);
-    command.add_option("--resolution", options.resolution,
-                       "picture size WxH in place of the scene's");
+    command
+        .add_option("--resolution", options.resolution, "picture size WxH in place of the scene's")
+        ->check(refuse_empty("a resolution, as in 256x171,"));
     command
         .add_option("--effects", options.effects,
                     "auto: only what the scene and each tile of it call for; all: everything; "
@@ -73,16 +93,20 @@ void add_output_options(CLI::App& command, OutputOptions& options)
     command
         .add_option("--json", options.json,
                     "write the figures as JSON to FILE, or - for standard output")
+        ->check(refuse_empty("a file, or - for standard output,"))
         ->type_name("FILE");
     command
         .add_option("--csv", options.csv,
                     "write the figures as CSV to FILE, or - for standard output")
+        ->check(refuse_empty("a file, or - for standard output,"))
         ->type_name("FILE");
 }
 
 void add_stop_options(CLI::App& command, StopOptions& options)
 {
-    command.add_option("--spp", options.spp, "samples per shading point")->type_name("N");
+    command.add_option("--spp", options.spp, "samples per shading point")
+        ->check(samples_fault)
+        ->type_name("N");
     command.add_option("--time", options.seconds, "seconds of wall time")->type_name("S");
     command.add_option("--error", options.error, "until the relative error is E")->type_name("E");
 }
@@ -120,7 +144,9 @@ void add_compare(CLI::App& app, CompareOptions& options)
          "of two reports: exit code 1 where a variance or a cost surely grew by more than P "
          "percent, a mean changed or a strategy is newly biased")
         ->type_name("P");
-    c.add_option("--out", options.out, "folder for the whole report")->type_name("DIR");
+    c.add_option("--out", options.out, "folder for the whole report")
+        ->check(refuse_empty("a folder"))
+        ->type_name("DIR");
     c.add_flag("--force", options.force, "write into a folder that exists");
     c.add_flag("--trap", options.trap,
                "stop at the first sample that is no number, and say how to replay it");
@@ -161,6 +187,7 @@ void add_cost(CLI::App& app, CostCommandOptions& options)
     c.add_option("--precision", options.precisions, "float, double: every strategy in each")
         ->type_name("LIST");
     c.add_option("--spp", options.stop.spp, "samples per shading point of the last doubling")
+        ->check(samples_fault)
         ->type_name("N");
     c.add_option("--time", options.stop.seconds, "seconds of wall time (30)")->type_name("S");
     add_run_options(c, options.run);

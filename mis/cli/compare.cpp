@@ -3,6 +3,7 @@
 #include "mis/cli/memory.h"
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
+#include "mis/cli/remark.h"
 #include "mis/cli/report_folder.h"
 #include "mis/cli/strategy_list.h"
 #include "mis/compare/maps.h"
@@ -107,8 +108,7 @@ int run_compare(const CompareOptions& options)
     report.is_sobol = options.run.is_sobol();
     report.instruction_set = kernels<float>().instruction_set;
     if (!options.run.quiet)
-        for (const std::string& reason : selection.left_out)
-            fmt::print(stderr, "left out: {}\n", reason);
+        for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
 
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
     std::vector<std::optional<Maps>> maps;

@@ -3,6 +3,7 @@
 #include "mis/cli/memory.h"
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
+#include "mis/cli/remark.h"
 #include "mis/cli/strategy_list.h"
 #include "mis/compare/cost_study.h"
 #include "mis/io/atomic_file.h"
@@ -78,8 +79,7 @@ int run_cost(const CostCommandOptions& options)
     const ReadyScene ready(options.scene, options.run);
     check_memory(ready.scene, strategies_of_reference);
     if (!options.run.quiet)
-        for (const std::string& reason : selection.left_out)
-            fmt::print(stderr, "left out: {}\n", reason);
+        for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
     CostReport report{.version = MIS_VERSION,

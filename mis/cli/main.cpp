@@ -1,11 +1,16 @@
 #include "mis/cli/command_line.h"
 #include "mis/cli/options.h"
+#include "mis/cli/remark.h"
 #include "mis/io/scene_error.h"
 #include "mis/strategy/strategy.h"
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <new>
+#include <string>
+#include <system_error>
 
 namespace {
 
@@ -13,8 +18,18 @@ using namespace mis::cli;  // NOLINT: the program's own names
 
 int complain(const char* message, int code)
 {
-    fmt::print(stderr, "mis: {}\n", message);
+    remark("mis: {}\n", message);
     return code;
+}
+
+/// The exit code, given that of the command: what waits for standard output is written now, and
+/// what was not written is no success.
+int with_all_output_written(int code)
+{
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    const std::string why = errno != 0 ? ": " + std::generic_category().message(errno) : "";
+    return complain(("standard output: cannot be written" + why).c_str(), failed);
 }
 
 }  // namespace
@@ -22,7 +37,7 @@ int complain(const char* message, int code)
 int main(int argc, char** argv)
 {
     try {
-        return run_command_line(argc, argv);
+        return with_all_output_written(run_command_line(argc, argv));
     } catch (const UsageError& error) {
         return complain(error.what(), usage);
     } catch (const mis::StrategyError& error) {

@@ -2,6 +2,7 @@
 
 #include "mis/cli/interrupt.h"
 #include "mis/cli/progress.h"
+#include "mis/cli/remark.h"
 #include "mis/cli/strategy_list.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/predict_json.h"
@@ -66,8 +67,7 @@ int run_predict(const PredictOptions& options)
                          ": found no probes; predict answers at probes alone\n"
                          "    Add \"probes\" to the scene (docs/scene-format.md).");
     if (!options.quiet)
-        for (const std::string& reason : selection.left_out)
-            fmt::print(stderr, "left out: {}\n", reason);
+        for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
     watch_for_interrupt();
     PredictReport report{
         .version = MIS_VERSION, .command = options.command_line, .threads = executor.threads};

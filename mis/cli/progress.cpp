@@ -1,5 +1,6 @@
 #include "mis/cli/progress.h"
 
+#include "mis/cli/remark.h"
 #include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
@@ -48,8 +49,8 @@ bool Progress::is_due() const
 /// To the beginning of what was drawn last, which is wiped.
 void Progress::go_back() const
 {
-    if (lines_above_ > 0) fmt::print(stderr, "\x1b[{}A", lines_above_);
-    fmt::print(stderr, "\r\x1b[J");
+    if (lines_above_ > 0) remark("\x1b[{}A", lines_above_);
+    remark("\r\x1b[J");
 }
 
 void Progress::show(const std::string& what, double done, const std::string& table)
@@ -68,8 +69,7 @@ void Progress::show(const std::string& what, double done, const std::string& tab
     line.resize(std::min(line.size(), terminal.columns - 1));
     if (is_drawn_) go_back();
     const bool has_room = terminal.columns > text_columns && terminal.rows > 8;
-    fmt::print(stderr, "{}{}", first_lines(table, has_room ? terminal.rows - 2 : 0, lines_above_),
-               line);
+    remark("{}{}", first_lines(table, has_room ? terminal.rows - 2 : 0, lines_above_), line);
     std::fflush(stderr);
     is_drawn_ = true;
 }

@@ -3,6 +3,7 @@
 #include "mis/cli/interrupt.h"
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
+#include "mis/cli/remark.h"
 #include "mis/compare/resolved.h"
 #include "mis/engine/exact.h"
 #include "mis/engine/render.h"
@@ -247,18 +248,17 @@ void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strate
     const std::string how =
         strategy ? fmt::format("{} samples each by {}", outcome.samples, name_of(*strategy))
                  : "each by its closed form";
-    fmt::print(stderr, "{}: {} x {} pixels, {} shading points, {}, {:.2f} s{}\n", options.out,
-               outcome.image.width, outcome.image.height, outcome.shading_points, how, seconds,
-               interruption(outcome));
+    remark("{}: {} x {} pixels, {} shading points, {}, {:.2f} s{}\n", options.out,
+           outcome.image.width, outcome.image.height, outcome.shading_points, how, seconds,
+           interruption(outcome));
     const bool is_sobol = strategy && options.run.is_sobol();
     if (outcome.error)
-        fmt::print(stderr, "{}{}\n", in_words(*outcome.error),
-                   is_sobol ? ", were its samples independent" : "");
+        remark("{}{}\n", in_words(*outcome.error),
+               is_sobol ? ", were its samples independent" : "");
     if (is_sobol && !std::has_single_bit(outcome.samples) && !outcome.is_partial)
-        fmt::print(stderr, "{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
-                   outcome.samples);
-    if (outcome.invalid > 0)
-        fmt::print(stderr, "{} samples were not finite and count as 0\n", outcome.invalid);
+        remark("{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
+               outcome.samples);
+    if (outcome.invalid > 0) remark("{} samples were not finite and count as 0\n", outcome.invalid);
 }
 
 }  // namespace

@@ -65,6 +65,12 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare VEACH --strategy all/power/one-sample", "draws for every light"},
         BadLine{"compare VEACH --strategy ,", "names separated by commas"},
         BadLine{"compare VEACH --spp 0", "--spp: found 0"},
+        BadLine{"compare VEACH --spp 99999999999999999999", "found \"99999999999999999999\""},
+        BadLine{"compare VEACH --spp 1e3", "found \"1e3\""},
+        BadLine{"compare VEACH --spp 8 --json ''", "--json: found \"\""},
+        BadLine{"compare VEACH --spp 8 --csv ''", "--csv: found \"\""},
+        BadLine{"compare VEACH --spp 8 --out ''", "--out: found \"\""},
+        BadLine{"compare VEACH --resolution ''", "--resolution: found \"\""},
         BadLine{"compare VEACH --spp 8 --time 2", "found more than one"},
         BadLine{"compare VEACH --time -1", "--time: found -1"},
         BadLine{"compare VEACH --error 0", "--error: found 0"},
@@ -315,6 +321,45 @@ TEST(CommandLine, FailsWithExitCode1OnAFullDisk)
                                      "' --resolution 8x8 --spp 4 --quiet --json /dev/full");
     EXPECT_EQ(outcome.exit, 1) << outcome.error;
     EXPECT_NE(outcome.error.find("/dev/full"), std::string::npos) << outcome.error;
+}
+
+/// Exit code of the program with these words and redirections.
+int exit_of(const std::string& words)
+{
+    const int status = std::system(("'" + program_file().string() + "' " + words).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(CommandLine, FailsWithExitCode1WhereStandardOutputCannotBeWritten)
+{
+    const TemporaryFolder folder;
+    const std::string error = (folder / "error").string(), said = " 2>'" + error + "'";
+    const std::string single = "'" + scene("single") + "' --resolution 8x8 ";
+    for (const std::string& words :
+         {"compare " + single + "--spp 16 --quiet --strategy uniform/light",
+          "replay " + single + "--strategy uniform/light --point 40 --sample 0",
+          "explain " + single, "predict '" + scene("single") + "' --strategy brdf",
+          std::string("integrate -n 10"), std::string("--help")}) {
+        EXPECT_EQ(exit_of(words + " >/dev/full" + said), 1) << words;
+        EXPECT_NE(text_of(error).find("standard output: cannot be written"), std::string::npos)
+            << words << "\n"
+            << text_of(error);
+    }
+    EXPECT_EQ(exit_of("explain " + single + ">&-" + said), 1);
+}
+
+/// What cannot be said changes no result, and no exit code.
+TEST(CommandLine, GoesOnWhereStandardErrorCannotBeWritten)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "a.exr").string();
+    const std::string render =
+        "render '" + scene("single") + "' --resolution 8x8 --spp 4 --out '" + file + "'";
+    for (const char* error : {" 2>/dev/full", " 2>&-"}) {
+        EXPECT_EQ(exit_of("compare /no/such.json" + std::string(error)), 2) << error;
+        EXPECT_EQ(exit_of(render + error), 0) << error;
+        EXPECT_TRUE(std::filesystem::remove(file)) << error;
+    }
 }
 
 TEST(CommandLine, ReplaysASampleStageByStage)
