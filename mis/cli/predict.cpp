@@ -6,6 +6,7 @@
 #include "mis/cli/strategy_list.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/predict_json.h"
+#include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
 
@@ -77,7 +78,7 @@ int run_predict(const PredictOptions& options)
     const PredictReport::Scene& found = report.scenes.front();
     if (options.output.json != "-" && options.output.csv != "-")
         write_text("-", fmt::format("{}: {} probes, {} lights\n\n{}",
-                                    found.name.empty() ? found.file : found.name,
+                                    printable(found.name.empty() ? found.file : found.name),
                                     found.probes.size(), found.lights, predict_text(found)));
     if (!options.output.json.empty()) write_text(options.output.json, predict_json(report));
     if (!options.output.csv.empty()) write_text(options.output.csv, predict_csv(report));

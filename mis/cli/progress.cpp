@@ -63,8 +63,9 @@ void Progress::show(const std::string& what, double done, const std::string& tab
         share > 0.02 ? fmt::format("{:.0f} s left", passed / share * (1 - share)) : "";
     constexpr std::size_t bar = 24;
     const auto filled = static_cast<std::size_t>(share * bar);
-    std::string line = fmt::format("[{}{}] {:3.0f} %  {}  {}", std::string(filled, '#'),
-                                   std::string(bar - filled, '.'), share * 100, left, what);
+    std::string line =
+        fmt::format("[{}{}] {:3.0f} %  {}  {}", std::string(filled, '#'),
+                    std::string(bar - filled, '.'), share * 100, left, printable(what));
     const TerminalSize terminal = terminal_size();
     line.resize(std::min(line.size(), terminal.columns - 1));
     if (is_drawn_) go_back();

@@ -53,8 +53,8 @@ std::string state(const EffectPlan& effect)
 
 std::string explanation_text(const Explanation& found)
 {
-    std::string text =
-        paragraph("scene", found.name.empty() ? found.file : found.name + " (" + found.file + ")");
+    std::string text = paragraph(
+        "scene", printable(found.name.empty() ? found.file : found.name + " (" + found.file + ")"));
     std::string lights = many(found.lights, "light");
     if (found.black_lights > 0) lights += fmt::format(", {} of them black", found.black_lights);
     lights += fmt::format("; radius {:.4g} to {:.4g}, power {:.4g} to {:.4g} W (luminance)",
@@ -78,8 +78,9 @@ std::string explanation_text(const Explanation& found)
                                                 found.dark_points)
                                   : ""));
     for (const MaterialUse& material : found.materials)
-        text += paragraph("material", fmt::format("{} ({}), {}", material.name, material.type,
-                                                  many(material.shading_points, "point")));
+        text += paragraph("material",
+                          fmt::format("{} ({}), {}", printable(material.name), material.type,
+                                      many(material.shading_points, "point")));
     text += paragraph("memory", fmt::format("lights {:.3g} MB, hierarchy over them {:.3g} MB",
                                             static_cast<double>(found.light_bytes) / 1e6,
                                             static_cast<double>(found.hierarchy_bytes) / 1e6));

@@ -33,10 +33,25 @@ std::vector<std::string> words_of(const std::string& text)
 
 }  // namespace
 
+std::string printable(std::string_view text)
+{
+    std::string safe;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+        const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;
+        if (is_c1) safe += fmt::format("\\u{:04x}", next), ++i;
+        else if (byte < 0x20 || byte == 0x7F) safe += fmt::format("\\u{:04x}", byte);
+        else safe += text[i];
+    }
+    return safe;
+}
+
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t columns)
 {
     std::string line, result;
-    for (const std::string& word : words_of(text)) {
+    for (const std::string& each : words_of(text)) {
+        const std::string word = printable(each);
         if (!line.empty() && width_of(line) + 1 + width_of(word) > columns) {
             result += line + "\n";
             line = std::string(indent, ' ') + word;

@@ -15,8 +15,12 @@ inline constexpr std::size_t text_columns = 80;
 /// Places that UTF-8 `text` takes on a terminal, for the few signs that are printed here: one each.
 std::size_t width_of(const std::string& text);
 
-/// `text` in lines of at most `columns`, all but the first indented, each ended by a line feed.
-/// Longer words stay whole.
+/// `text` with control characters as \u escapes: names in a file may hold some, which would play on
+/// the terminal.
+std::string printable(std::string_view text);
+
+/// `text`, made printable, in lines of at most `columns`, all but the first indented, each ended by
+/// a line feed. Longer words stay whole.
 std::string wrapped(const std::string& text, std::size_t indent = 2,
                     std::size_t columns = text_columns);
 

@@ -348,6 +348,24 @@ TEST(CommandLine, FailsWithExitCode1WhereStandardOutputCannotBeWritten)
     EXPECT_EQ(exit_of("explain " + single + ">&-" + said), 1);
 }
 
+/// A scene's name comes from a file: it is shown, and does not play on the terminal.
+TEST(CommandLine, PrintsNoControlCharacterOfAName)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "scene.json").string();
+    std::ofstream(file)
+        << R"({"format": "mis-scene/1", "name": "lamp\u001b[31m", "materials": {"m\u001b[2J": {"type": "lambert", "albedo": 0.5}},
+        "probes": [{"position": [0, 0, 0], "normal": [0, 1, 0], "outgoing": [0, 1, 0], "material": "m\u001b[2J"}],
+        "lights": [{"center": [0, 2, 0], "radius": 0.5, "radiance": 1}]})";
+    for (const std::string command :
+         {"explain", "predict", "compare --spp 16", "cost --spp 16 --strategy uniform/light"}) {
+        const Outcome run = mis_with(command + " '" + file + "' --quiet");
+        EXPECT_EQ(run.exit, 0) << command << "\n" << run.error;
+        EXPECT_EQ(run.out.find('\x1b'), std::string::npos) << command << "\n" << run.out;
+        EXPECT_NE(run.out.find("lamp\\u001b[31m"), std::string::npos) << command << "\n" << run.out;
+    }
+}
+
 /// What cannot be said changes no result, and no exit code.
 TEST(CommandLine, GoesOnWhereStandardErrorCannotBeWritten)
 {

@@ -24,12 +24,19 @@ TEST(ShortNumbers, TakeSixPlaces)
     EXPECT_EQ(short_duration(7200), "2h");
 }
 
+TEST(Printable, LeavesNoControlCharacter)
+{
+    EXPECT_EQ(printable("a\tb\x1b[31m\x7f"), "a\\u0009b\\u001b[31m\\u007f");
+    EXPECT_EQ(printable("\u009b31m \u00a0é☃\xc2"), "\\u009b31m \u00a0é☃\xc2");
+}
+
 TEST(Wrapped, BreaksBetweenWordsAndIndents)
 {
     EXPECT_EQ(wrapped("one two three", 2, 8), "one two\n  three\n");
     EXPECT_EQ(wrapped("within 2 % or 3 ± 1", 0, 8), "within\n2 % or\n3 ± 1\n");
     EXPECT_EQ(wrapped("unbreakable", 2, 4), "unbreakable\n");
     EXPECT_EQ(wrapped("é é é é", 0, 7), "é é é é\n");
+    EXPECT_EQ(wrapped("red \x1b[31mlamp", 0, 80), "red \\u001b[31mlamp\n");
 }
 
 TEST(TextTable, PutsLongNamesOnALineOfTheirOwn)
