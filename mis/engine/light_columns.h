@@ -16,11 +16,13 @@ LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& ori
                                    LargeVector<T>& storage, const LightOrder* order = nullptr)
 {
     const std::size_t count = lights.size(), padded = (count + 15) / 16 * 16;
-    storage.assign(
-        padded * 5,
-        T(1));  // the padding is a light of radius 1 at distance √3: finite, and never read
+    storage.resize(padded * 5);
     std::array<std::span<T>, 5> column;
-    for (std::size_t k = 0; k < 5; ++k) column[k] = std::span(storage).subspan(k * padded, padded);
+    for (std::size_t k = 0; k < 5; ++k) {
+        column[k] = std::span(storage).subspan(k * padded, padded);
+        // The padding is a light of radius 1 at distance √3: finite, and never drawn.
+        std::fill(column[k].begin() + static_cast<std::ptrdiff_t>(count), column[k].end(), T(1));
+    }
     double largest = lights.empty() ? 1 : 0;  // of no lights nothing is read
     for (std::size_t j = 0; j < count; ++j) {
         const Light& light =

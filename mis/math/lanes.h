@@ -57,6 +57,12 @@ template <class T> MIS_INLINE void store_lanes(Scalar<T>* p, const T& value)
     else value.store_unaligned(p);
 }
 
+/// n numbers of type S that the compiler itself keeps in lanes, whatever the processor has: to
+/// convert between number types.
+template <class S, std::size_t n> struct CompilerLanes {
+    using Type [[gnu::vector_size(n * sizeof(S))]] = S;
+};
+
 /// `condition ? a : b`, lane by lane; both sides are evaluated. For batches xsimd brings it.
 template <class T> MIS_INLINE T select(bool condition, const T& a, const T& b)
 {

@@ -14,33 +14,27 @@ public:
     static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {
-        return weight_table_bytes(lights);
+        return weight_table_bytes<IrradiancePolicy>(lights);
     }
 
     explicit IrradiancePolicy(const Lights&) {}
 
     template <class T>
-    RunningSum prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>& lights,
-                       Scratch& scratch) const
+    WeightTable<T, IrradiancePolicy> prepare(const ChoicePoint<Scalar<T>>& point,
+                                             const LightColumns<Scalar<T>>& lights,
+                                             Scratch& scratch) const
     {
-        return prepare_irradiance<T>(point, lights, scratch);
+        return WeightTable<T, IrradiancePolicy>::over(point, lights, scratch);
     }
-
-    /// The same for a policy of which this is a part.
-    template <class T>
-    MIS_INLINE static RunningSum prepare_irradiance(const ChoicePoint<Scalar<T>>& point,
-                                                    const LightColumns<Scalar<T>>& lights,
-                                                    Scratch& scratch)
+    template <class T, class Use>
+    MIS_INLINE static void visit_weight(const ChoicePoint<Scalar<T>>& point, const Use& use)
     {
         const T from_origin(length(point.x));
-        const auto weight = [&](const SeenLight<T>& light, const Vec3<T>& n)
-            __attribute__((always_inline))
-        {
+        use([&](const SeenLight<T>& light, const Vec3<T>& n) __attribute__((always_inline)) {
             const TiltedCap<T> cap = light.tilted_cap(n);
             return radiant_irradiance(light, cap,
                                       seen_irradiance_over_sin2(light, cap, from_origin));
-        };
-        return prepare_by_weight<T>(weight, point, lights, scratch);
+        });
     }
 };
 static_assert(LightChoice<IrradiancePolicy, float>);

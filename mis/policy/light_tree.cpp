@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace mis {
 
@@ -57,10 +58,8 @@ struct LightTree::Builder {
         tree.lights_.resize(Range{0, count}.groups());
         tree.nodes_.emplace_back();
         build(0, {0, count});
-        NodeGroup whole{};
-        describe(whole, 0, {0, count});
-        tree.middle_ = {whole.x[0], whole.y[0], whole.z[0]};
-        tree.reach_ = whole.reach[0];
+        const Description whole = described({0, count});
+        tree.middle_ = whole.mean, tree.reach_ = whole.reach;
     }
 
     const Light& light_of(const Item& item) const
@@ -83,13 +82,15 @@ struct LightTree::Builder {
         const auto first_child = static_cast<std::uint32_t>(tree.nodes_.size());
         if (node.is_lowest == 0) tree.nodes_.resize(tree.nodes_.size() + count);
         node.first.fill(std::numeric_limits<std::uint32_t>::max());
+        node.child = node.is_lowest != 0 ? parts[0].first / group_size : first_child;
+        std::array<Description, width> described_parts;  // NOLINT: filled as far as it is read
         for (std::uint32_t k = 0; k < count; ++k) {
             node.first[k] = parts[k].first / group_size;
-            node.child[k] = node.is_lowest != 0 ? node.first[k] : first_child + k;
-            if (node.is_lowest != 0) fill_lights(node.child[k], parts[k]);
-            else build(node.child[k], parts[k]);
-            describe(node, k, parts[k]);
+            if (node.is_lowest != 0) fill_lights(node.child + k, parts[k]);
+            else build(node.child + k, parts[k]);
+            described_parts[k] = described(parts[k]);
         }
+        describe(node, std::span(described_parts).first(count));
         tree.nodes_[self] = node;
     }
 
@@ -139,8 +140,14 @@ struct LightTree::Builder {
         }
     }
 
-    /// Part k of a node, whose lights are in their groups already: eq. 65.
-    void describe(NodeGroup& node, std::size_t k, const Range& range) const
+    /// Eq. 65.
+    struct Description {
+        Vec3<double> mean, variance;
+        double power, reach;
+    };
+
+    /// A range whose lights are in their groups already.
+    Description described(const Range& range) const
     {
         double power = 0;
         Vec3<double> sum{0}, plain{0};
@@ -157,9 +164,32 @@ struct LightTree::Builder {
             reach = std::max(reach, length(away) + radius);
         });
         const Vec3<double> variance = power > 0 ? squares / power : Vec3<double>(0);
-        node.x[k] = mean.x, node.y[k] = mean.y, node.z[k] = mean.z;
-        node.xx[k] = variance.x, node.yy[k] = variance.y, node.zz[k] = variance.z;
-        node.reach[k] = reach, node.power[k] = power > 0 ? std::max(power, 1e-35) : 0;
+        return {mean, variance, power, reach};
+    }
+
+    /// The parts of a node. Its origin is their middle one along each axis, which no far sun moves;
+    /// what floats round off their places is added to their reach.
+    static void describe(NodeGroup& node, std::span<const Description> parts)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            std::array<double, width> along;  // NOLINT: filled as far as it is read
+            for (std::size_t k = 0; k < parts.size(); ++k) along[k] = parts[k].mean[axis];
+            const auto middle = along.begin() + static_cast<std::ptrdiff_t>(parts.size() / 2);
+            std::nth_element(along.begin(), middle,
+                             along.begin() + static_cast<std::ptrdiff_t>(parts.size()));
+            node.origin[axis] = *middle;
+        }
+        for (std::size_t k = 0; k < parts.size(); ++k) {
+            const Description& part = parts[k];
+            const Vec3<double> away = part.mean - node.origin;
+            const Vec3<float> place = vec_cast<float>(away);
+            node.x[k] = place.x, node.y[k] = place.y, node.z[k] = place.z;
+            node.sx[k] = static_cast<float>(std::sqrt(part.variance.x));
+            node.sy[k] = static_cast<float>(std::sqrt(part.variance.y));
+            node.sz[k] = static_cast<float>(std::sqrt(part.variance.z));
+            node.reach[k] = static_cast<float>(part.reach * (1 + 0x1p-20) + 0x1p-20 * length(away));
+            node.power[k] = part.power > 0 ? std::max(static_cast<float>(part.power), 1e-35F) : 0;
+        }
     }
 
     void fill_lights(std::uint32_t number, const Range& range)

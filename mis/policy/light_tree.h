@@ -13,7 +13,7 @@ namespace mis {
 /// A hierarchy over lights, to choose among them: groups of up to 16 lights that stand together,
 /// groups of up to 16 such groups, and so on. Of each part it keeps what it takes to guess what the
 /// part is worth at a point (docs/theory.md, eqs. 65 to 69). Places and lengths are in scene units,
-/// powers are shares of the power of all lights. 54 bytes per light where there are thousands.
+/// powers are shares of the power of all lights. 51 bytes per light where there are thousands.
 class LightTree {
 public:
     static constexpr std::size_t width = 16;
@@ -29,16 +29,18 @@ public:
         Row<double> luminance_radius;  ///< such that times radius it is the share of the power
         Row<LightIndex> light;
     };
-    /// Up to 16 parts, each with the group that it is made of.
+    /// Up to 16 parts, each with the group that it is made of. Floats, relative to a place among
+    /// them: what a part is worth is a guess.
     struct alignas(64) NodeGroup {
-        Row<double> x, y, z;  ///< mean place of its power
-        Row<double> reach;    ///< the ball of this radius about there holds all of its lights
-        Row<double> power;
-        Row<double> xx, yy, zz;       ///< variance of the place of its power, along each axis
-        Row<std::uint32_t> child;     ///< of nodes(), or of lights() if is_lowest
-        Row<std::uint32_t> first;     ///< number of its first group of lights
+        Row<float> power;
+        Row<float> x, y, z;     ///< mean place of its power, from `origin`
+        Row<float> reach;       ///< the ball of this radius about there holds all its lights
+        Row<float> sx, sy, sz;  ///< standard deviation of the place of its power
+        Vec3<double> origin{0};
+        std::uint32_t child = 0;      ///< of part 0: of nodes(), or of lights() if is_lowest
         std::uint32_t count = 0;      ///< parts; the others have no power
         std::uint32_t is_lowest = 0;  ///< are its parts groups of lights?
+        Row<std::uint32_t> first;     ///< number of its first group of lights
     };
 
     /// The first is the root.

@@ -15,27 +15,29 @@ public:
     static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {
-        return weight_table_bytes(lights);
+        return weight_table_bytes<ProductPolicy>(lights);
     }
 
     explicit ProductPolicy(const Lights&) {}
 
     template <class T>
-    RunningSum prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>& lights,
-                       Scratch& scratch) const
+    WeightTable<T, ProductPolicy> prepare(const ChoicePoint<Scalar<T>>& point,
+                                          const LightColumns<Scalar<T>>& lights,
+                                          Scratch& scratch) const
+    {
+        return WeightTable<T, ProductPolicy>::over(point, lights, scratch);
+    }
+    template <class T, class Use>
+    MIS_INLINE static void visit_weight(const ChoicePoint<Scalar<T>>& point, const Use& use)
     {
         const T from_origin(length(point.x));
-        RunningSum table;
         visit_reflection<T>(
             point, [&](const auto& reflection) __attribute__((always_inline)) {
-                const auto weight = [&](const SeenLight<T>& light, const Vec3<T>& n)
-                    __attribute__((always_inline))
-                {
-                    return reflected_weight(reflection, light, n, from_origin);
-                };
-                table = prepare_by_weight<T>(weight, point, lights, scratch);
+                use([&](const SeenLight<T>& light, const Vec3<T>& n)
+                        __attribute__((always_inline)) {
+                            return reflected_weight(reflection, light, n, from_origin);
+                        });
             });
-        return table;
     }
 };
 static_assert(LightChoice<ProductPolicy, float>);

@@ -12,20 +12,25 @@ public:
     static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {
-        return weight_table_bytes(lights);
+        return weight_table_bytes<RadiantSolidAnglePolicy>(lights);
     }
 
     explicit RadiantSolidAnglePolicy(const Lights&) {}
 
     template <class T>
-    RunningSum prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>& lights,
-                       Scratch& scratch) const
+    WeightTable<T, RadiantSolidAnglePolicy> prepare(const ChoicePoint<Scalar<T>>& point,
+                                                    const LightColumns<Scalar<T>>& lights,
+                                                    Scratch& scratch) const
     {
-        // Y(L)·Ω ∝ (Y(L)·r/d) · Ω/sin θ_max.
-        const auto weight = [](const SeenLight<T>& light, const Vec3<T>&) {
-            return light.luminance_radius / light.distance * light.solid_angle_over_sin();
-        };
-        return prepare_by_weight<T>(weight, point, lights, scratch);
+        return WeightTable<T, RadiantSolidAnglePolicy>::over(point, lights, scratch);
+    }
+    template <class T, class Use>
+    MIS_INLINE static void visit_weight(const ChoicePoint<Scalar<T>>&, const Use& use)
+    {
+        use([](const SeenLight<T>& light, const Vec3<T>&) __attribute__((always_inline)) {
+            // Y(L)·Ω ∝ (Y(L)·r) · Ω/r.
+            return light.luminance_radius * light.solid_angle_over_radius();
+        });
     }
 };
 static_assert(LightChoice<RadiantSolidAnglePolicy, float>);

@@ -16,6 +16,7 @@ template <class T> struct Reflected {
 template <class T> struct SpreadReflected {
     T flat, lobe;
     T lobe_variance;  ///< of the lobe over the directions, over its squared mean; a guess
+    T unsure;         ///< what of the lobe some directions may see that are not guessed to
 };
 
 /// That of a surface without a lobe.
@@ -24,9 +25,9 @@ template <class T> struct FlatReflection {
     {
         return {number<T>(1), number<T>(0)};
     }
-    MIS_INLINE SpreadReflected<T> of_spread(const Vec3<T>&, const T&) const
+    MIS_INLINE SpreadReflected<T> of_spread(const Vec3<T>&, const T&, const T&) const
     {
-        return {number<T>(1), number<T>(0), number<T>(0)};
+        return {number<T>(1), number<T>(0), number<T>(0), number<T>(0)};
     }
 };
 
@@ -43,6 +44,8 @@ public:
         diffuse_ = number<T>(lobe.diffuse);
         flat_ = number<T>(lobe.diffuse + defensive * lobe.specular);
         peak_ = lobe_at(Vec3<T>{-wo_.x, -wo_.y, wo_.z});
+        using std::sqrt;
+        lobe_reach_ = number<T>(4) * sqrt(extent_ * number<T>(0.5 / pi<double>));
     }
 
     /// The lobe is taken where the cap is nearest to the mirror direction; of a cap wider than the
@@ -58,8 +61,10 @@ public:
     }
 
     /// Of directions about `middle` (unit, in scene axes) that vary by `variance` (rad²) along
-    /// either of two axes. docs/theory.md, eqs. 67 and 68.
-    MIS_INLINE SpreadReflected<T> of_spread(const Vec3<T>& middle, const T& variance) const
+    /// either of two axes, none of them farther away than `reach` (rad). docs/theory.md, eqs. 67
+    /// and 68.
+    MIS_INLINE SpreadReflected<T> of_spread(const Vec3<T>& middle, const T& variance,
+                                            const T& reach) const
     {
         using std::sqrt;
         const T one = number<T>(1), inverse_lobe_variance = number<T>(2 * pi<double>) / extent_;
@@ -72,11 +77,14 @@ public:
         const T away2 = length2(away);
         const T slope = min_of(T(away2 * inverse_lobe_variance * (q * over_both)), number<T>(4));
         const T growth = one + slope * (one + slope * number<T>(0.5));  // of exp the first terms
-        const T tail = peak_ * number<T>(outlying) *
-                       (variance / max_of(T(variance + away2), number<T>(1e-37)));
+        const T outliers = peak_ * (variance / max_of(T(variance + away2), number<T>(1e-37))),
+                tail = outliers * number<T>(outlying);
+        const T far_off = reach + lobe_reach_;
+        const T unsure = select(away2 > far_off * far_off, number<T>(0),
+                                T(outliers * number<T>(outlying_doubt)));
         const Vec3<T> unit_wi = wi * T(one / length(wi));
         return {flat_, max_of(lobe_at(unit_wi), tail) * over_wide,
-                wide * wide * (wide * over_both) * growth - one};
+                wide * wide * (wide * over_both) * growth - one, unsure};
     }
 
 private:
@@ -85,6 +93,8 @@ private:
     static constexpr double defensive = 0.02;
     /// Of power that may stand in the lobe as far as its variance goes, the share that does.
     static constexpr double outlying = 0.03;
+    /// And what of their worth that puts in doubt.
+    static constexpr double outlying_doubt = 0.3;
 
     /// Luminance of the lobe alone.
     MIS_INLINE T lobe_at(const Vec3<T>& wi) const
@@ -109,7 +119,8 @@ private:
     const B* bsdf_;
     Frame<T> frame_;
     Vec3<T> wo_;
-    T extent_;  ///< the lobe's solid angle about wi
+    T extent_;      ///< the lobe's solid angle about wi
+    T lobe_reach_;  ///< four standard deviations of it (rad)
     T diffuse_, flat_, peak_;
 };
 
@@ -136,9 +147,8 @@ MIS_INLINE T reflected_weight(const Reflection& reflection, const SeenLight<T>& 
 {
     const TiltedCap<T> cap = light.tilted_cap(n);
     const T irradiance = seen_irradiance_over_sin2(light, cap, from_origin);
-    const Vec3<T> to_center =
-        light.to_center * T(number<T>(1) / max_of(light.distance, number<T>(1e-37)));
-    const Reflected<T> reflected = reflection.of_cap(cap, irradiance, to_center);
+    const Reflected<T> reflected =
+        reflection.of_cap(cap, irradiance, Vec3<T>(light.to_center * light.inverse_distance()));
     return radiant_irradiance(light, cap, irradiance) * (reflected.flat + reflected.lobe);
 }
 

@@ -13,19 +13,24 @@ public:
     static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {
-        return weight_table_bytes(lights);
+        return weight_table_bytes<SolidAnglePolicy>(lights);
     }
 
     explicit SolidAnglePolicy(const Lights&) {}
 
     template <class T>
-    RunningSum prepare(const ChoicePoint<Scalar<T>>& point, const LightColumns<Scalar<T>>& lights,
-                       Scratch& scratch) const
+    WeightTable<T, SolidAnglePolicy> prepare(const ChoicePoint<Scalar<T>>& point,
+                                             const LightColumns<Scalar<T>>& lights,
+                                             Scratch& scratch) const
     {
-        const auto weight = [](const SeenLight<T>& light, const Vec3<T>&) {
-            return light.size / light.distance * light.solid_angle_over_sin();
-        };
-        return prepare_by_weight<T>(weight, point, lights, scratch);
+        return WeightTable<T, SolidAnglePolicy>::over(point, lights, scratch);
+    }
+    template <class T, class Use>
+    MIS_INLINE static void visit_weight(const ChoicePoint<Scalar<T>>&, const Use& use)
+    {
+        use([](const SeenLight<T>& light, const Vec3<T>&) __attribute__((always_inline)) {
+            return light.size * light.solid_angle_over_radius();
+        });
     }
 };
 static_assert(LightChoice<SolidAnglePolicy, float>);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace mis {
 
@@ -21,9 +22,12 @@ public:
                           draws_go_together = true;
     /// Groups opened at a point: of up to some 330 lights all, where `tree` is `product`.
     static constexpr std::size_t most_open = 24;
+    /// No part is opened whose doubt is less than this share of all weights.
+    static constexpr double least_doubt = 0.003;
     static constexpr std::size_t table_bytes(std::size_t)
     {
-        return Scratch::bytes_for<TreePoint<double>>(1) + Scratch::bytes_for<OpenGroup>(most_open);
+        return Scratch::bytes_for<TreePoint<double>>(1) +
+               Scratch::bytes_for<OpenGroup<double>>(most_open);
     }
 
     explicit TreePolicy(const Lights& lights) : tree_(std::make_shared<const LightTree>(lights)) {}
@@ -87,7 +91,8 @@ public:
         struct Part {
             const Parts* of = nullptr;
             std::size_t k = 0;
-            std::uint32_t child() const { return of->child[k]; }
+            bool is_even = false;  ///< are the lights in it drawn by power?
+            std::uint32_t child() const { return of->child + static_cast<std::uint32_t>(k); }
         };
         /// A draw on its way down.
         struct Descent {
@@ -117,7 +122,7 @@ public:
         {
             if (open_ == nullptr || !(open_[0].sums.back() > 0)) return false;
             choice.probability = 1;
-            for (const OpenGroup* open = open_;;) {
+            for (const OpenGroup<Scalar<T>>* open = open_;;) {
                 if (open->is_of_lights) {
                     take_light(path, tree_->lights()[open->group], open->sums, choice);
                     return false;
@@ -125,7 +130,10 @@ public:
                 at.of = &tree_->nodes()[open->group];
                 at.k = path.part(open->sums, *at.of);
                 choice.probability *= share_of(open->sums, at.k);
-                if (open->opened[at.k] == 0) return choice.probability > 0;
+                if (open->opened[at.k] == 0) {
+                    at.is_even = !(open->doubts[at.k] > 0);
+                    return choice.probability > 0;
+                }
                 open = &open_[open->opened[at.k]];
             }
         }
@@ -138,17 +146,22 @@ public:
             LightRow sums;  // NOLINT: filled before it is read
             if (at.of->is_lowest != 0) {
                 const Lights& lights = tree_->lights()[at.child()];
-                weigh_lights<T>(reflection, *at_, lights, sums);
+                if (!at.is_even) weigh_lights<T>(reflection, *at_, lights, sums);
                 // All of them below the horizon, which was not seen from above: any will do.
-                if (!sum_up(sums)) sums = lights.luminance_radius, sum_up(sums);
+                if (at.is_even || !sum_up(sums)) take_powers(lights, sums), sum_up(sums);
                 take_light(path, lights, sums, choice);
                 return false;
             }
-            LightTree::Row<Scalar<T>> unused;  // NOLINT
+            LightTree::Row<Scalar<T>> doubts;  // NOLINT
             at.of = &tree_->nodes()[at.child()];
-            weigh_parts<T>(reflection, *at_, *at.of, sums, unused);
-            if (!sum_up(sums)) sums = at.of->power, sum_up(sums);
-            at.k = path.part(sums, *at.of);
+            if (!at.is_even) weigh_parts<T>(reflection, *at_, *at.of, sums, doubts);
+            if (at.is_even || !sum_up(sums)) {
+                take_powers(*at.of, sums), sum_up(sums);
+                at.k = path.part(sums, *at.of);
+            } else {
+                at.k = path.part(sums, *at.of);
+                at.is_even = !(doubts[at.k] > 0);
+            }
             choice.probability *= share_of(sums, at.k);
             return choice.probability > 0;
         }
@@ -156,13 +169,20 @@ public:
         /// Asks for what step() will read.
         MIS_INLINE void fetch_ahead(const Part& at) const
         {
-            if (at.of->is_lowest != 0) fetch(tree_->lights()[at.child()]);
-            else fetch(tree_->nodes()[at.child()]);
+            if (at.of->is_lowest != 0) {
+                const Lights& lights = tree_->lights()[at.child()];
+                if (at.is_even) fetch(&lights.radius, sizeof lights - offsetof(Lights, radius));
+                else fetch(&lights, sizeof lights);
+            } else {
+                const Parts& parts = tree_->nodes()[at.child()];
+                if (at.is_even) fetch(&parts.power, 1), fetch(&parts.origin, 1);
+                else fetch(&parts, offsetof(Parts, first));
+            }
         }
-        template <class Group> MIS_INLINE static void fetch(const Group& group)
+        MIS_INLINE static void fetch(const void* data, std::size_t size)
         {
-            const auto* bytes = reinterpret_cast<const std::byte*>(&group);
-            for (std::size_t line = 0; line < sizeof(Group); line += 64)
+            const auto* bytes = static_cast<const std::byte*>(data);
+            for (std::size_t line = 0; line < size; line += 64)
                 __builtin_prefetch(bytes + line, 0, 2);
         }
 
@@ -177,7 +197,8 @@ public:
 
         const LightTree* tree_ = nullptr;
         const TreePoint<Scalar<T>>* at_ = nullptr;
-        const OpenGroup* open_ = nullptr;  ///< the first is the root; nullptr without a light
+        const OpenGroup<Scalar<T>>* open_ =
+            nullptr;  ///< the first is the root; nullptr without a light
     };
 
     template <class T>
@@ -188,7 +209,8 @@ public:
         table.tree_ = tree_.get();
         if (tree_->lights().empty()) return table;
         TreePoint<Scalar<T>>& at = scratch.take<TreePoint<Scalar<T>>>(1)[0];
-        const std::span<OpenGroup> open = scratch.take<OpenGroup>(most_open);
+        using Open = OpenGroup<Scalar<T>>;
+        const std::span<Open> open = scratch.take<Open>(most_open);
         at = seen_from(point);
         visit_reflection<T>(
             point, [&](const auto& reflection)
@@ -212,22 +234,24 @@ private:
     /// were opened the weight that was found within.
     template <class T, class Reflection>
     MIS_INLINE void open_groups(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
-                                std::span<OpenGroup> open) const
+                                std::span<OpenGroup<Scalar<T>>> open) const
     {
+        const bool may_open_all = tree_->nodes().size() + tree_->lights().size() <= most_open;
         OpenOrder<Scalar<T>, most_open> order;
-        OpenGroup next{.group = 0, .is_of_lights = false};
+        OpenGroup<Scalar<T>> next{.group = 0, .is_of_lights = false};
         std::size_t count = 0;
         do {
-            OpenGroup& group = open[count] = next;
-            if (group.is_of_lights) {
+            OpenGroup<Scalar<T>>& group = open[count];
+            group.group = next.group, group.is_of_lights = next.is_of_lights, group.opened = {};
+            if (group.is_of_lights)
                 weigh_lights<T>(reflection, at, tree_->lights()[group.group], group.sums);
-                order.add_without_doubt();
-            } else {
+            else
                 weigh_parts<T>(reflection, at, tree_->nodes()[group.group], group.sums,
-                               order.add());
-            }
+                               group.doubts, !may_open_all);
+            order.add(group);
             ++count;
-        } while (count < most_open && order.next(open, *tree_, next));
+        } while (count < most_open &&
+                 order.next(open, *tree_, may_open_all ? 0 : least_doubt, next));
         while (--count > 0) {
             sum_up(open[count].sums);
             open[order.from(count).group].sums[order.from(count).part] = open[count].sums.back();

@@ -8,10 +8,18 @@
 
 namespace mis {
 
-/// Weights → their running sums. Is their total positive?
+/// Weights → their running sums. Is their total positive? Quarters by themselves first: their sums
+/// do not wait for one another.
 MIS_INLINE bool sum_up(LightTree::Row<double>& weights)
 {
-    for (std::size_t k = 1; k < LightTree::width; ++k) weights[k] += weights[k - 1];
+    constexpr std::size_t quarter = LightTree::width / 4;
+    for (std::size_t k = 1; k < quarter; ++k)
+        for (std::size_t q = 0; q < LightTree::width; q += quarter)
+            weights[q + k] += weights[q + k - 1];
+    for (std::size_t q = quarter; q < LightTree::width; q += quarter) {
+        const double before = weights[q - 1];
+        for (std::size_t k = 0; k < quarter; ++k) weights[q + k] += before;
+    }
     return weights.back() > 0;
 }
 
@@ -75,10 +83,11 @@ private:
 };
 
 /// A group that was looked into before any draw.
-struct OpenGroup {
+template <class S> struct OpenGroup {
     std::uint32_t group = 0;
     bool is_of_lights = false;
     LightTree::Row<std::uint8_t> opened{};  ///< number of the open group of each part; 0: none
+    LightTree::Row<S> doubts;               ///< of its parts; 0 of an even one
     LightTree::Row<double> sums{};          ///< weights, then their running sums
 };
 
@@ -89,30 +98,35 @@ public:
         std::uint8_t group, part;
     };
 
-    /// Another group: room for the doubts about its parts.
-    MIS_INLINE LightTree::Row<S>& add()
+    /// Another group; the weights and doubts of its parts are known.
+    MIS_INLINE void add(OpenGroup<S>& group)
     {
-        is_doubted_[count_] = true;
-        return doubts_[count_++];
+        double sum = 0;
+        for (const double weight : group.sums) sum += weight;
+        total_ += sum - replaced_;
+        most_doubt_[count_] = group.is_of_lights ? 0 : most_of(group.doubts);
+        ++count_;
     }
-    MIS_INLINE void add_without_doubt() { most_doubt_[count_] = 0, is_doubted_[count_++] = false; }
 
     /// The part that is most in doubt, as a group to look into; noted in `open` as opened. False if
-    /// none is in doubt.
-    MIS_INLINE bool next(std::span<OpenGroup> open, const LightTree& tree, OpenGroup& found)
+    /// none is in doubt by more than this share of all weights.
+    MIS_INLINE bool next(std::span<OpenGroup<S>> open, const LightTree& tree, double share,
+                         OpenGroup<S>& found)
     {
-        if (is_doubted_[count_ - 1]) find_most(count_ - 1);
         std::size_t g = 0, k = 0;
         for (std::size_t i = 1; i < count_; ++i)
             if (most_doubt_[i] > most_doubt_[g]) g = i;
-        if (!(most_doubt_[g] > 0)) return false;
-        while (doubts_[g][k] != most_doubt_[g]) ++k;
-        doubts_[g][k] = 0;
-        find_most(g);
+        if (!(static_cast<double>(most_doubt_[g]) > share * total_)) return false;
+        LightTree::Row<S>& doubts = open[g].doubts;
+        while (doubts[k] != most_doubt_[g]) ++k;
+        doubts[k] = 0;
+        most_doubt_[g] = most_of(doubts);
+        replaced_ = open[g].sums[k];
         from_[count_] = {static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(k)};
         open[g].opened[k] = static_cast<std::uint8_t>(count_);
         const LightTree::NodeGroup& parts = tree.nodes()[open[g].group];
-        found.group = parts.child[k], found.is_of_lights = parts.is_lowest != 0;
+        found.group = parts.child + static_cast<std::uint32_t>(k);
+        found.is_of_lights = parts.is_lowest != 0;
         return true;
     }
 
@@ -120,18 +134,19 @@ public:
     const From& from(std::size_t i) const { return from_[i]; }
 
 private:
-    MIS_INLINE void find_most(std::size_t group)
+    MIS_INLINE static S most_of(LightTree::Row<S> doubts)
     {
-        S largest = 0;
-        for (const S doubt : doubts_[group]) largest = doubt > largest ? doubt : largest;
-        most_doubt_[group] = largest;
+        for (std::size_t half = LightTree::width / 2; half > 0; half /= 2)
+            for (std::size_t k = 0; k < half; ++k)
+                doubts[k] = doubts[k] > doubts[k + half] ? doubts[k] : doubts[k + half];
+        return doubts[0];
     }
 
     std::size_t count_ = 0;
-    std::array<bool, most> is_doubted_;           // NOLINT: as all here, filled by add
-    std::array<LightTree::Row<S>, most> doubts_;  // NOLINT
-    std::array<S, most> most_doubt_;              // NOLINT
-    std::array<From, most> from_;                 // NOLINT
+    double total_ = 0;                ///< of the weights of all parts that are not opened
+    double replaced_ = 0;             ///< the weight of the part that is being opened
+    std::array<S, most> most_doubt_;  // NOLINT: as from_, filled by add
+    std::array<From, most> from_;     // NOLINT
 };
 
 }  // namespace mis

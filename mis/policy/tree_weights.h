@@ -3,6 +3,8 @@
 #include "mis/policy/light_tree.h"
 #include "mis/policy/seen_product.h"
 
+#include <cstring>
+
 namespace mis {
 
 using LightRow = LightTree::Row<double>;
@@ -31,13 +33,23 @@ MIS_INLINE T lanes_of_row(const LightRow& row, std::size_t first, double from, d
     }
 }
 
-/// What stands at places [first, …) of a group: from the point, in units.
-template <class T, class Group>
-MIS_INLINE Vec3<T> places_of(const Group& group, const TreePoint<Scalar<T>>& at, std::size_t first)
+/// Floats of a row in another number type.
+template <class T> MIS_INLINE T lanes_of_row(const LightTree::Row<float>& row, std::size_t first)
 {
-    return {lanes_of_row<T>(group.x, first, at.x.x, at.inverse_unit),
-            lanes_of_row<T>(group.y, first, at.x.y, at.inverse_unit),
-            lanes_of_row<T>(group.z, first, at.x.z, at.inverse_unit)};
+    constexpr std::size_t count = lane_count<T>;
+    if constexpr (std::is_same_v<Scalar<T>, float>) {
+        return load_lanes<T>(&row[first]);
+    } else if constexpr (count == 1) {
+        return static_cast<T>(row[first]);
+    } else {
+        using Doubles = typename CompilerLanes<double, count>::Type;
+        typename CompilerLanes<float, count>::Type some;  // NOLINT: filled at once
+        std::memcpy(&some, &row[first], sizeof some);
+        const Doubles wide = __builtin_convertvector(some, Doubles);
+        alignas(64) std::array<double, count> numbers;  // NOLINT: filled at once
+        std::memcpy(numbers.data(), &wide, sizeof wide);
+        return load_lanes<T>(numbers.data());
+    }
 }
 
 }  // namespace detail
@@ -51,9 +63,11 @@ MIS_OWN_COPY void weigh_lights(const Reflection& reflection, const TreePoint<Sca
     const T from_origin(length(at.point.x));
     alignas(64) LightTree::Row<Scalar<T>> found;  // NOLINT: filled at once
     for (std::size_t k = 0; k < LightTree::width; k += lane_count<T>) {
-        const Vec3<T> to_center = detail::places_of<T>(group, at, k);
+        const Vec3<T> to_center{detail::lanes_of_row<T>(group.x, k, at.x.x, at.inverse_unit),
+                                detail::lanes_of_row<T>(group.y, k, at.x.y, at.inverse_unit),
+                                detail::lanes_of_row<T>(group.z, k, at.x.z, at.inverse_unit)};
         const SeenLight<T> light{
-            to_center, length(to_center),
+            to_center, dot(to_center, to_center),
             detail::lanes_of_row<T>(group.radius, k, 0, at.inverse_unit),
             detail::lanes_of_row<T>(group.luminance_radius, k, 0, 1 / at.inverse_unit),
             number<T>(0)};
@@ -62,33 +76,44 @@ MIS_OWN_COPY void weigh_lights(const Reflection& reflection, const TreePoint<Sca
     for (std::size_t k = 0; k < LightTree::width; ++k) weights[k] = static_cast<double>(found[k]);
 }
 
+/// A part whose doubt is at most this share of its weight, and which stands well apart from the
+/// point and its horizon, is even: lights in it are drawn by power alone.
+inline constexpr double even_doubt = 0.04;
+
 /// What the parts of a group are worth, as far as one can say without a look into them: positive
 /// where a light of theirs may be above the horizon. doubts: how much the lights within a part
-/// differ, as a variance times the part's weight. docs/theory.md, eqs. 66 to 69.
+/// differ, as a variance times the part's weight; 0 of an even one, if any may be. docs/theory.md,
+/// eqs. 66 to 69.
 template <class T, class Reflection>
 MIS_OWN_COPY void weigh_parts(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
                               const LightTree::NodeGroup& group, LightRow& weights,
-                              LightTree::Row<Scalar<T>>& doubts)
+                              LightTree::Row<Scalar<T>>& doubts, bool may_be_even = true)
 {
     using std::sqrt;
+    using S = Scalar<T>;
     const T zero = number<T>(0), one = number<T>(1), least = number<T>(1e-36);
     const Vec3<T> n{T(at.point.n.x), T(at.point.n.y), T(at.point.n.z)};
     const T from_origin(length(at.point.x));
-    const T rounding = number<T>(64) * T(std::numeric_limits<Scalar<T>>::epsilon());
-    const double unit2 = at.inverse_unit * at.inverse_unit;
-    alignas(64) LightTree::Row<Scalar<T>> found;  // NOLINT: filled at once
+    const T rounding = number<T>(64) * T(std::numeric_limits<S>::epsilon());
+    const T least_even = may_be_even ? number<T>(even_doubt) : number<T>(-1);
+    const T unit(static_cast<S>(at.inverse_unit));
+    const Vec3<S> x = vec_cast<S>((at.x - group.origin) * at.inverse_unit);
+    const auto lengths = [&](const LightTree::Row<float>& row, std::size_t k)
+        __attribute__((always_inline))
+    {
+        return T(detail::lanes_of_row<T>(row, k) * unit);
+    };
+    alignas(64) LightTree::Row<S> found;  // NOLINT: filled at once
     for (std::size_t k = 0; k < LightTree::width; k += lane_count<T>) {
-        const Vec3<T> to_middle = detail::places_of<T>(group, at, k);
-        const T xx = detail::lanes_of_row<T>(group.xx, k, 0, unit2),
-                yy = detail::lanes_of_row<T>(group.yy, k, 0, unit2),
-                zz = detail::lanes_of_row<T>(group.zz, k, 0, unit2),
-                reach = detail::lanes_of_row<T>(group.reach, k, 0, at.inverse_unit),
-                power = detail::lanes_of_row<T>(group.power, k, 0, 1);
-        const T spread2 = xx + yy + zz, d = length(to_middle);
-        const T inverse = one / sqrt(max_of(T(d * d + spread2), least));
+        const Vec3<T> to_middle{T(lengths(group.x, k) - T(x.x)), T(lengths(group.y, k) - T(x.y)),
+                                T(lengths(group.z, k) - T(x.z))};
+        const Vec3<T> s{lengths(group.sx, k), lengths(group.sy, k), lengths(group.sz, k)};
+        const T reach = lengths(group.reach, k), power = detail::lanes_of_row<T>(group.power, k);
+        const T spread2 = dot(s, s), d2 = dot(to_middle, to_middle), d = sqrt(d2);
+        const T inverse = one / sqrt(max_of(T(d2 + spread2), least));
 
-        const T height = dot(n, to_middle),
-                variance = n.x * n.x * xx + n.y * n.y * yy + n.z * n.z * zz;
+        const Vec3<T> ns = n * s;
+        const T height = dot(n, to_middle), variance = dot(ns, ns);
         const T root = sqrt(height * height + variance);
         const T rise = number<T>(0.5) * select(height > zero, T(height + root),
                                                T(variance / max_of(T(root - height), least)));
@@ -97,19 +122,36 @@ MIS_OWN_COPY void weigh_parts(const Reflection& reflection, const TreePoint<Scal
         const T irradiance =
             power * inverse * (select(is_above, T(T(pi<T>) * cos_theta), zero) * inverse);
 
-        const T spread = spread2 * inverse * inverse;
+        const T spread = spread2 * inverse * inverse, inverse_d = one / max_of(d, least);
         const SpreadReflected<T> reflected = reflection.of_spread(
-            Vec3<T>(to_middle * T(one / max_of(d, least))), T(spread * number<T>(1.0 / 3)));
-        store_lanes(&found[k], T(irradiance * (reflected.flat + reflected.lobe)));
+            Vec3<T>(to_middle * inverse_d), T(spread * number<T>(1.0 / 3)), T(reach * inverse_d));
+        const T weight = irradiance * (reflected.flat + reflected.lobe);
+        store_lanes(&found[k], weight);
         const T uneven =
             spread + min_of(T(variance / max_of(T(rise * rise), least)), number<T>(1e4));
-        const T doubt = irradiance * (reflected.flat * uneven +
-                                      reflected.lobe * (uneven + reflected.lobe_variance));
+        const T doubt =
+            irradiance * (reflected.flat * uneven +
+                          reflected.lobe * (uneven + reflected.lobe_variance) + reflected.unsure);
+        const auto is_even =
+            doubt <= least_even * weight && d > number<T>(2) * reach && height > reach;
         // Nearly all of the power is far away, as a sun's, but other lights may be near.
-        const T first = select(d * d > number<T>(100) * spread2, T(doubt * number<T>(1e12)), doubt);
-        store_lanes(&doubts[k], select(d <= number<T>(2) * reach, first, doubt));
+        const T first = select(d2 > number<T>(100) * spread2, T(doubt * number<T>(1e12)), doubt);
+        store_lanes(&doubts[k],
+                    T(select(is_even, zero, T(select(d <= number<T>(2) * reach, first, doubt)))));
     }
     for (std::size_t k = 0; k < LightTree::width; ++k) weights[k] = static_cast<double>(found[k]);
+}
+
+/// The same of an even part, or of its lights: their powers.
+MIS_INLINE void take_powers(const LightTree::NodeGroup& group, LightRow& weights)
+{
+    for (std::size_t k = 0; k < LightTree::width; ++k)
+        weights[k] = static_cast<double>(group.power[k]);
+}
+MIS_INLINE void take_powers(const LightTree::LightGroup& group, LightRow& weights)
+{
+    for (std::size_t k = 0; k < LightTree::width; ++k)
+        weights[k] = group.luminance_radius[k] * group.radius[k];
 }
 
 }  // namespace mis

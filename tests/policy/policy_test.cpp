@@ -248,5 +248,61 @@ TEST_P(EveryPolicy, AnyNumberOfLightsFillsTheLanes)
     EXPECT_GT(sums, 9);
 }
 
+/// Lights about the point, half of them below it, every eleventh black.
+Lights many_lights(std::size_t count)
+{
+    Uniforms u(5);
+    Lights lights;
+    for (std::size_t j = 0; j < count; ++j) {
+        const Vec3<double> center{u.between(-9, 9), u.between(-9, 9), u.between(-9, 9)};
+        lights.push_back(
+            make_light_of_power(center, std::min(u.log_between(1e-4, 0.1), 0.5 * length(center)),
+                                Vec3<double>(j % 11 == 5 ? 0 : u.log_between(1, 1e3))));
+    }
+    return lights;
+}
+
+/// Tables of some lights, of hundreds, and of so many that weights are not kept; with a block that
+/// is not full at their end.
+TEST_P(EveryPolicy, OfAnyNumberOfLightsATableSaysWhatItDraws)
+{
+    for (const std::size_t count : {32U, 33U, 64U, 1'003U, 16'384U, 16'387U}) {
+        const Lights lights = many_lights(count);
+        for (const Numbers numbers : {Numbers::doubles, Numbers::floats, Numbers::lanes}) {
+            const Table table = table_of(lights, numbers);
+            const std::vector<double> all = table->probabilities();
+            EXPECT_NEAR(table->sum(), 1, rounding) << count;
+            double below = 0;
+            for (std::size_t j = 0; j < count; ++j) {
+                ASSERT_GE(all[j], 0);
+                below += all[j];
+            }
+            ASSERT_GT(below, 0);
+            for (int i = 0; i < 1000; ++i) {
+                const std::uint64_t bits = random_bits(3, static_cast<std::uint64_t>(i));
+                const Choice choice = table->choose(bits);
+                ASSERT_GE(choice.light, 0);
+                ASSERT_LT(static_cast<std::size_t>(choice.light), count);
+                ASSERT_GT(choice.probability, 0);
+                ASSERT_EQ(choice.probability, all[static_cast<std::size_t>(choice.light)]);
+            }
+        }
+    }
+}
+
+TEST_P(EveryPolicy, DrawsHundredsOfLightsEachAsOftenAsItSays)
+{
+    const int draws = scaled(300'000);
+    constexpr double false_alarm = 1e-6;  // per policy
+    const Lights lights = many_lights(333);
+    const Table table = table_of(lights, Numbers::lanes);
+    std::vector<double> observed(lights.size()), expected = table->probabilities();
+    for (double& e : expected) e *= draws;
+    for (int i = 0; i < draws; ++i)
+        ++observed[static_cast<std::size_t>(
+            table->choose(random_bits(7, static_cast<std::uint64_t>(i))).light)];
+    EXPECT_GT(chi2_p_value(observed, expected), false_alarm);
+}
+
 }  // namespace
 }  // namespace mis

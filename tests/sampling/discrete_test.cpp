@@ -1,10 +1,12 @@
 #include "mis/sampling/discrete.h"
 
+#include "tests/support/lanes.h"
 #include "tests/support/statistics.h"
 #include "tests/support/uniforms.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -155,6 +157,81 @@ TYPED_TEST(EveryTable, TheTrueShareOfEachIsItsProbability)
             }
         }
     }
+}
+
+/// Borders of a block: each place that counts is drawn over its own weight of the sum, the others
+/// never.
+TEST(Block, EachPlaceIsDrawnOverItsOwnWeight)
+{
+    for (const double ratio : {1.0, 1e9})
+        for (std::size_t empty = 0; empty <= block_size; ++empty) {
+            const std::vector<double> logs = some_weights(block_size, ratio);
+            std::array<float, block_size> weights{};
+            double sum = 0;
+            for (std::size_t k = 0; k < block_size; ++k) {
+                weights[k] = k == empty || k + 1 == empty ? 0 : static_cast<float>(logs[k]);
+                sum += static_cast<double>(weights[k]);
+            }
+            EXPECT_NEAR(sum_of_block(weights.data()), sum, 1e-15 * sum);
+            double below = 0;
+            for (std::size_t k = 0; k < block_size; ++k) {
+                const double w = static_cast<double>(weights[k]);
+                for (const double share : {1e-3, 0.5, 0.999})
+                    if (w > 0) {
+                        ASSERT_EQ(place_in_block(weights.data(), below + share * w), k) << empty;
+                    }
+                below += w;
+            }
+            // What rounding leaves beyond the sum.
+            EXPECT_GT(weights[place_in_block(weights.data(), sum)], 0);
+            EXPECT_GT(weights[place_in_block(weights.data(), sum * 1.001)], 0);
+            EXPECT_GT(weights[place_in_block(weights.data(), 0)], 0);
+        }
+}
+
+/// However far beyond the sum, and wherever the only weight stands.
+TEST(Block, TheOnlyPlaceThatCountsIsDrawnAlways)
+{
+    for (std::size_t k = 0; k < block_size; ++k) {
+        std::array<float, block_size> weights{};
+        weights[k] = 1e-30F;
+        for (const double share : {0.0, 0.5, 1.0, 1.001})
+            EXPECT_EQ(place_in_block(weights.data(), share * 1e-30), k);
+    }
+}
+
+TEST(Block, ItsSumIsThatOfDoubles)
+{
+    std::array<float, block_size> weights{};
+    weights[3] = 1e8F, weights[12] = 1, weights[15] = 0.25F;
+    EXPECT_EQ(sum_of_block(weights.data()), 1e8 + 1.25);
+    std::array<double, block_size> doubles{};
+    for (std::size_t k = 0; k < block_size; ++k) doubles[k] = static_cast<double>(1 << k);
+    EXPECT_EQ(sum_of_block(doubles.data()), 65535.0);
+}
+
+/// With weights of 0 first, last and between, bits at the ends, and numbers of draws that fill no
+/// lanes.
+TEST(RunningSum, ChoosesManyAsItChoosesOne)
+{
+    Uniforms uniforms(91);
+    for (std::size_t lights = 1; lights <= 16; ++lights)
+        for (int turn = 0; turn < 20; ++turn) {
+            std::vector<double> weights(lights);
+            for (double& w : weights) w = uniforms() < 0.4 ? 0 : uniforms.log_between(1e-12, 1e3);
+            const OwnedSum owned(weights);
+            std::vector<std::uint64_t> bits{0, ~std::uint64_t{0}};
+            for (int i = uniforms.below(40); i > 0; --i)
+                bits.push_back(static_cast<std::uint64_t>(uniforms() * 0x1p32) << 32 |
+                               static_cast<std::uint64_t>(uniforms() * 0x1p32));
+            std::size_t seen = 0;
+            owned.table.choose_many<TestLanes<double>>(bits, [&](std::size_t i, const Choice& c) {
+                EXPECT_EQ(i, seen++);
+                EXPECT_EQ(c.light, owned.choose(bits[i]).light);
+                EXPECT_EQ(c.probability, owned.choose(bits[i]).probability);
+            });
+            EXPECT_EQ(seen, bits.size());
+        }
 }
 
 }  // namespace
