@@ -1,89 +1,112 @@
 #include "mis/effects/blockers.h"
 
-#include "mis/effects/round_cone.h"
-
 #include <algorithm>
 
 namespace mis {
 
+const std::array<Blockers::Words, 2> Blockers::too_long{}, Blockers::none{};
+
 namespace {
 
-std::size_t bytes_of(const LightIndex* list)
+/// What a direction may meet is found by the hierarchy as soon as by a longer list.
+constexpr std::size_t most_met = 32;
+static_assert(most_met <= Blockers::most_in_a_list);
+
+std::size_t bytes_of(const std::uint16_t* list)
 {
-    return (static_cast<std::size_t>(list[0]) + 1) * sizeof(LightIndex);
+    return LightList(list).words() * sizeof(std::uint16_t);
 }
 
 }  // namespace
 
-std::shared_ptr<const Blockers> Blockers::of(const LightHierarchy& hierarchy, const Lights& lights,
+std::shared_ptr<const Blockers> Blockers::of(std::shared_ptr<const FloatSpheres> spheres,
+                                             const Lights& lights,
                                              std::span<const ShadingPoint> points,
                                              std::shared_ptr<ListBudget> budget)
 {
-    if (lights.size() > most_lights ||
-        !budget->take(lights.size() * sizeof(std::atomic<const LightIndex*>)))
-        return nullptr;
+    const std::size_t places = places_of(lights.size());
+    if (lights.size() > most_lights || !budget->take(places * sizeof(lists_[0]))) return nullptr;
     return std::shared_ptr<const Blockers>(
-        new Blockers(hierarchy, lights, points, std::move(budget)));
+        new Blockers(std::move(spheres), lights, points, std::move(budget)));
 }
 
-Blockers::Blockers(const LightHierarchy& hierarchy, const Lights& lights,
+Blockers::Blockers(std::shared_ptr<const FloatSpheres> spheres, const Lights& lights,
                    std::span<const ShadingPoint> points, std::shared_ptr<ListBudget> budget)
-    : hierarchy_(&hierarchy), lights_(&lights), budget_(std::move(budget)), lists_(lights.size())
+    : spheres_(std::move(spheres)), lights_(&lights), parts_(points), budget_(std::move(budget)),
+      lists_(places_of(lights.size()))
 {
-    Vec3<double> low = points[0].x, high = low;
-    for (const ShadingPoint& p : points) low = min(low, p.x), high = max(high, p.x);
-    middle_ = 0.5 * (low + high);
-    for (const ShadingPoint& p : points) radius_ = std::max(radius_, length(p.x - middle_));
 }
 
 Blockers::~Blockers()
 {
-    for (const auto& kept : lists_) {
-        const LightIndex* list = kept.load(std::memory_order_relaxed);
-        if (list == nullptr || list == &too_long || list == &none) continue;
+    for (const auto& place : lists_) {
+        const Words* list = place.load(std::memory_order_relaxed);
+        if (reinterpret_cast<std::uintptr_t>(list) <= patience || list == too_long.data() ||
+            list == none.data())
+            continue;
         budget_->give(bytes_of(list));
         delete[] list;
     }
     budget_->give(lists_.size() * sizeof(lists_[0]));
 }
 
-/// One more than may be listed where there are too many.
-std::vector<LightIndex> Blockers::found_before(const Light& light, LightIndex j) const
+/// All that a list is about, seen from a ball of points.
+Beam Blockers::beam_from(const Ball& ball, std::size_t place) const
 {
-    // A direction that was drawn in float may end beside its light by some 1e-7 of the radius.
-    const RoundCone between(middle_, radius_, light.center, light.radius * (1 + 4e-6));
-    const auto room_at = [this, here = radius_ + length(middle_)](const Vec3<double>& p) {
-        return 1e-11 * (here + length(p - middle_));  // for rounding
-    };
-    std::vector<LightIndex> found;
-    hierarchy_->for_each_touching(
-        [&](const Vec3<double>& center, double radius) {
-            return between.distance(center) <= radius + room_at(center);
-        },
-        [&](LightIndex k) {
-            if (k != j) found.push_back(k);
-            return found.size() <= most_in_a_list;
-        });
-    return found;
+    const Vec3<double> from = ball.center - spheres_->origin;
+    if (place < lights_->size()) {
+        const Light& light = (*lights_)[place];
+        // A direction that was drawn in float may end beside its light by some 1e-7 of the radius.
+        return Beam::between(from, ball.radius, light.center - spheres_->origin,
+                             light.radius * (1 + 4e-6));
+    }
+    const DirectionCells::Cone& cone = DirectionCells::cones()[place - lights_->size()];
+    return {from, ball.radius, cone.axis, cone.sine, std::numeric_limits<double>::infinity()};
 }
 
-const LightIndex* Blockers::make(LightIndex j) const
+/// One more asked for a list that is not made; is it to wait?
+bool Blockers::waits(std::size_t place, const Words* list, std::uintptr_t asks) const
 {
-    const std::vector<LightIndex> found = found_before((*lights_)[static_cast<std::size_t>(j)], j);
-    const LightIndex* list = &too_long;
-    const std::size_t bytes = (found.size() + 1) * sizeof(LightIndex);
-    if (found.empty()) {
-        list = &none;
-    } else if (found.size() <= most_in_a_list && budget_->take(bytes)) {
-        auto* made = new LightIndex[found.size() + 1];
-        made[0] = static_cast<LightIndex>(found.size());
-        std::copy(found.begin(), found.end(), made + 1);
+    const std::uintptr_t asked = reinterpret_cast<std::uintptr_t>(list);
+    if (asked >= asks) return false;
+    // Another thread that counted, or made it, may have been quicker: no matter.
+    lists_[place].compare_exchange_strong(list, reinterpret_cast<const Words*>(asked + 1),
+                                          std::memory_order_relaxed);
+    return true;
+}
+
+const Blockers::Words* Blockers::make(std::size_t place) const
+{
+    std::array<ListedLight, most_lights + LightList::group> found;  // NOLINT: as far as it is read
+    std::array<Words, most_in_a_list> lights, beams;                // NOLINT
+    const std::size_t candidates = BeamTests::best.meet(
+        beam_from(parts_.around(), place), *spheres_, spheres_->all(), 1, found.data());
+    Beams from;
+    for (std::size_t k = 0; k < parts_.balls().size(); ++k)
+        from.set(k, beam_from(parts_.balls()[k], place));
+    const std::uint32_t parts = (1U << parts_.balls().size()) - 1;
+    const std::size_t most = place < lights_->size() ? most_in_a_list : most_met;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < candidates && count <= most; ++i) {
+        const std::uint32_t met = BeamTests::best.meeting(from, spheres_->sphere[found[i]]) & parts;
+        if (met == 0 || found[i] == place) continue;  // no light hides itself
+        if (count < most) lights[count] = found[i], beams[count] = static_cast<Words>(met);
+        ++count;
+    }
+    const Words* list = too_long.data();
+    const std::size_t words = LightList::words(count), bytes = words * sizeof(Words);
+    if (count == 0) {
+        list = none.data();
+    } else if (count <= most && budget_->take(bytes)) {
+        auto* made = new Words[words];
+        LightList::write(lights.data(), beams.data(), count, made);
         list = made;
     }
-    const LightIndex* before = nullptr;
-    auto& kept = lists_[static_cast<std::size_t>(j)];
-    if (kept.compare_exchange_strong(before, list, std::memory_order_acq_rel)) return list;
-    if (list != &too_long && list != &none) {  // another thread was quicker
+    const Words* before = lists_[place].load(std::memory_order_acquire);
+    while (reinterpret_cast<std::uintptr_t>(before) <= patience)
+        if (lists_[place].compare_exchange_weak(before, list, std::memory_order_acq_rel))
+            return list;
+    if (list != too_long.data() && list != none.data()) {  // another thread was quicker
         budget_->give(bytes);
         delete[] list;
     }

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "mis/math/vec.h"
+#include "mis/effects/direction_cells.h"
+#include "mis/effects/tile_parts.h"
 #include "mis/scene/shading_point.h"
-#include "mis/trace/lights.h"
+#include "mis/trace/beam.h"
 
 #include <atomic>
 #include <cstddef>
@@ -36,50 +37,90 @@ private:
     std::atomic<std::ptrdiff_t> left_;
 };
 
-/// For the points of one tile and each light: which others could stand before it at all. A list
-/// is made when it is first asked for, and kept; many threads may ask. What a list leaves out can
-/// hide nothing, so whoever asks a list gets the answer that the whole hierarchy gives.
+/// For the points of one tile: which lights could stand before another one at all, and which could
+/// a direction meet. A list is made when it is asked for, and kept; many threads may ask. What a
+/// list leaves out is not met, so whoever asks a list gets the answer that the whole hierarchy
+/// gives. The beams of a list are those from parts().
 class Blockers {
 public:
-    /// Lights beyond which a list does not pay any more, and lights that one list may hold.
-    static constexpr std::size_t most_lights = 4096, most_in_a_list = 64;
+    /// Lights beyond which lists do not pay any more, and lights that one list may hold.
+    static constexpr std::size_t most_lights = 4096, most_in_a_list = 256;
     /// Of all lists together.
-    static constexpr std::size_t most_bytes = 64 << 20;
+    static constexpr std::size_t most_bytes = std::size_t{128} << 20;
+    /// Of so few lights no lists by direction are kept: to look at them all is as quick.
+    static constexpr std::size_t few_lights = 32;
+    /// Of many draws, so many are left to the hierarchy before a list is made: that takes as long.
+    static constexpr std::uintptr_t patience = 3;
 
-    /// points: of the tile, at least one. hierarchy: of the lights; kept by reference, as they
-    /// are. Null where there are too many lights, or the budget is spent.
-    static std::shared_ptr<const Blockers> of(const LightHierarchy& hierarchy, const Lights& lights,
+    /// points: of the tile, at least one. spheres: of the lights. lights: kept by reference, as
+    /// they are. Null where there are too many lights, or the budget is spent.
+    static std::shared_ptr<const Blockers> of(std::shared_ptr<const FloatSpheres> spheres,
+                                              const Lights& lights,
                                               std::span<const ShadingPoint> points,
                                               std::shared_ptr<ListBudget> budget);
     ~Blockers();
     Blockers(const Blockers&) = delete;
     Blockers& operator=(const Blockers&) = delete;
 
-    /// Every light that may stand between a point of the tile and light j, in no order; nothing
-    /// where no list is kept, and the hierarchy is to be asked.
-    std::optional<std::span<const LightIndex>> before(LightIndex j) const
+    const TileParts& parts() const { return parts_; }
+    const FloatSpheres& spheres() const { return *spheres_; }
+
+    /// Every light that may stand between a point of the tile and light j; nothing where no list
+    /// is kept, and the hierarchy is to be asked.
+    std::optional<LightList> before(LightIndex j) const
     {
-        const auto& kept = lists_[static_cast<std::size_t>(j)];
-        const LightIndex* list = kept.load(std::memory_order_acquire);
-        if (list == nullptr) list = make(j);
-        if (list == &too_long) return std::nullopt;
-        return std::span(list + 1, static_cast<std::size_t>(list[0]));
+        return kept(static_cast<std::size_t>(j), 0);
+    }
+    /// Every light that a direction may meet from a point of the tile.
+    std::optional<LightList> along(const Vec3<float>& wi) const { return kept(place_of(wi), 0); }
+
+    /// The same for one of many draws: the first few of them get nothing.
+    std::optional<LightList> often_before(LightIndex j) const
+    {
+        return kept(static_cast<std::size_t>(j), patience);
+    }
+    std::optional<LightList> often_along(const Vec3<float>& wi) const
+    {
+        return kept(place_of(wi), patience);
     }
 
 private:
-    Blockers(const LightHierarchy& hierarchy, const Lights& lights,
+    Blockers(std::shared_ptr<const FloatSpheres> spheres, const Lights& lights,
              std::span<const ShadingPoint> points, std::shared_ptr<ListBudget> budget);
-    const LightIndex* make(LightIndex j) const;
-    std::vector<LightIndex> found_before(const Light& light, LightIndex j) const;
 
-    static constexpr LightIndex too_long = -1, none = 0;
-    const LightHierarchy* hierarchy_;
+    /// Lists before each light come first, then those along each cell of directions.
+    std::size_t place_of(const Vec3<float>& wi) const
+    {
+        return lights_->size() + DirectionCells::of(wi);
+    }
+    static constexpr std::size_t places_of(std::size_t lights)
+    {
+        return lights + (lights > few_lights ? DirectionCells::count : 0);
+    }
+    std::optional<LightList> kept(std::size_t place, std::uintptr_t asks) const
+    {
+        if (place >= lists_.size()) return std::nullopt;
+        const Words* list = lists_[place].load(std::memory_order_acquire);
+        if (reinterpret_cast<std::uintptr_t>(list) <= patience) {
+            if (waits(place, list, asks)) return std::nullopt;
+            list = make(place);
+        }
+        if (list == too_long.data()) return std::nullopt;
+        return LightList(list);
+    }
+
+    using Words = std::uint16_t;
+    bool waits(std::size_t place, const Words* list, std::uintptr_t asks) const;
+    const Words* make(std::size_t place) const;
+    Beam beam_from(const Ball& ball, std::size_t place) const;
+
+    static const std::array<Words, 2> too_long, none;
+    std::shared_ptr<const FloatSpheres> spheres_;
     const Lights* lights_;
-    Vec3<double> middle_{0};  ///< of the ball around the points
-    double radius_ = 0;
+    TileParts parts_;
     std::shared_ptr<ListBudget> budget_;
-    /// [light]: its list, how many and then which; null: not asked for yet
-    mutable std::vector<std::atomic<const LightIndex*>> lists_;
+    /// A list; or how often it was asked for, up to `patience`, while it was not made.
+    mutable std::vector<std::atomic<const Words*>> lists_;
 };
 
 }  // namespace mis

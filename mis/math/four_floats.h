@@ -49,6 +49,11 @@ MIS_INLINE std::uint32_t not_above(FourFloats a, FourFloats b)
 {
     return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmple_ps(a.lanes, b.lanes)));
 }
+/// Bit k: a[k] > b[k].
+MIS_INLINE std::uint32_t above(FourFloats a, FourFloats b)
+{
+    return static_cast<std::uint32_t>(_mm_movemask_ps(_mm_cmpgt_ps(a.lanes, b.lanes)));
+}
 #else
 struct FourFloats {
     float lanes[4];
@@ -96,6 +101,12 @@ MIS_INLINE std::uint32_t not_above(FourFloats a, FourFloats b)
 {
     std::uint32_t bits = 0;
     for (int k = 0; k < 4; ++k) bits |= a.lanes[k] <= b.lanes[k] ? 1U << k : 0;
+    return bits;
+}
+MIS_INLINE std::uint32_t above(FourFloats a, FourFloats b)
+{
+    std::uint32_t bits = 0;
+    for (int k = 0; k < 4; ++k) bits |= a.lanes[k] > b.lanes[k] ? 1U << k : 0;
     return bits;
 }
 #endif

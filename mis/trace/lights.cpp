@@ -22,18 +22,6 @@ bool may_hold(const LightNode& node, std::size_t k, const Vec3<float>& p)
 
 }  // namespace
 
-LightHierarchy::BoxBall LightHierarchy::ball_around(const Node& node, std::size_t k) const
-{
-    Vec3<double> low, high;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<std::size_t>(axis);
-        const auto step = static_cast<double>(node.step[a]);
-        low[axis] = static_cast<double>(node.low_origin[a]) + node.low[a][k] * step;
-        high[axis] = static_cast<double>(node.high_origin[a]) + node.high[a][k] * step;
-    }
-    return {origin_ + 0.5 * (low + high), 0.5 * length(high - low)};
-}
-
 bool LightHierarchy::contains(const Vec3<double>& x) const
 {
     if (nodes_.empty()) return false;
@@ -57,8 +45,20 @@ bool LightHierarchy::contains(const Vec3<double>& x) const
     return false;
 }
 
+LightHit LightHierarchy::nearest(const Vec3<double>& x, const Vec3<double>& wi,
+                                 std::span<const ListedLight> others) const
+{
+    LightHit best;
+    for (const LightIndex j : others) {
+        const LightHit hit{j, distance_to(j, x, wi)};
+        if (hit.distance < std::numeric_limits<double>::infinity() && stands_before(hit, best))
+            best = hit;
+    }
+    return best;
+}
+
 bool LightHierarchy::hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit,
-                           std::span<const LightIndex> others) const
+                           std::span<const ListedLight> others) const
 {
     return std::any_of(others.begin(), others.end(), [&](LightIndex j) {
         return stands_before({j, distance_to(j, x, wi)}, hit);

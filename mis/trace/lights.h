@@ -2,11 +2,13 @@
 
 #include "mis/math/sphere.h"
 #include "mis/scene/light.h"
+#include "mis/trace/beam.h"
 #include "mis/trace/light_boxes.h"
 
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -57,9 +59,11 @@ public:
         return walked(Hides{x, wi, hit.light, hit.distance, hit}).is_hidden;
     }
 
-    /// The same, where only `others` can.
+    /// The same two, where only `others` can be met, or stand before it.
+    LightHit nearest(const Vec3<double>& x, const Vec3<double>& wi,
+                     std::span<const ListedLight> others) const;
     bool hides(const Vec3<double>& x, const Vec3<double>& wi, const LightHit& hit,
-               std::span<const LightIndex> others) const;
+               std::span<const ListedLight> others) const;
 
     /// What is asked of many rays: several are under way at a time, so that one computes while
     /// another waits for memory. The answers are those of one after the other.
@@ -100,10 +104,8 @@ public:
         walked(Along<Visit>{x, wi, &visit});
     }
 
-    /// visit(j) for every light whose ball touches(center, radius), until it returns false; a ball
-    /// around a group of lights is asked first.
-    template <class Touches, class Visit>
-    void for_each_touching(const Touches& touches, const Visit& visit) const;
+    /// Amid the lights; scene units.
+    const Vec3<double>& origin() const { return origin_; }
 
     std::size_t bytes() const
     {
@@ -124,13 +126,6 @@ private:
         return meets_sphere(to_center, light.radius, wi) ? hit_distance(to_center, light.radius, wi)
                                                          : std::numeric_limits<double>::infinity();
     }
-
-    /// Half the diagonal, and the middle, of the box of child k.
-    struct BoxBall {
-        Vec3<double> center;
-        double radius;
-    };
-    BoxBall ball_around(const Node& node, std::size_t k) const;
 
     // What is looked for along a ray. limit: beyond it, nothing is of interest; but: not asked.
     static constexpr double everything = std::numeric_limits<double>::infinity();
@@ -164,8 +159,17 @@ private:
     };
     template <class Task> class Walk;
     template <class Task> Task walked(const Task& task) const;
+    /// Walks under way at a time. Where the hierarchy is larger than a near cache, so many that the
+    /// node that one has asked for is there when its turn comes again.
+    static constexpr std::size_t few_walks = 4, many_walks = 16, near_cache = std::size_t{1} << 20;
     template <class TaskOf, class Done>
-    void walk_each(std::size_t count, const TaskOf& task_of, const Done& done) const;
+    void walk_each(std::size_t count, const TaskOf& task_of, const Done& done) const
+    {
+        if (bytes() <= near_cache) walk_together<few_walks>(count, task_of, done);
+        else walk_together<many_walks>(count, task_of, done);
+    }
+    template <std::size_t at_once, class TaskOf, class Done>
+    void walk_together(std::size_t count, const TaskOf& task_of, const Done& done) const;
 
     const Lights* lights_;
     Vec3<double> origin_{0};
@@ -200,6 +204,16 @@ public:
         return true;
     }
 
+    /// Asks memory for the node that is next.
+    void ask_ahead(const LightHierarchy& hierarchy) const
+    {
+        if (stack_.count == 0) return;
+        const auto* node =
+            reinterpret_cast<const std::byte*>(&hierarchy.nodes_[stack_.node[stack_.count - 1]]);
+        __builtin_prefetch(node);
+        __builtin_prefetch(node + 64);  // it is on two lines
+    }
+
     Task task;
     std::size_t number = 0;  ///< of the caller
 
@@ -225,10 +239,9 @@ template <class Task> Task LightHierarchy::walked(const Task& task) const
     return walk.task;
 }
 
-template <class TaskOf, class Done>
-void LightHierarchy::walk_each(std::size_t count, const TaskOf& task_of, const Done& done) const
+template <std::size_t at_once, class TaskOf, class Done>
+void LightHierarchy::walk_together(std::size_t count, const TaskOf& task_of, const Done& done) const
 {
-    constexpr std::size_t at_once = 4;
     using Task = decltype(task_of(std::size_t{}));
     std::array<Walk<Task>, at_once> walks;  // NOLINT
     std::array<Walk<Task>*, at_once> under_way{};
@@ -241,32 +254,14 @@ void LightHierarchy::walk_each(std::size_t count, const TaskOf& task_of, const D
         if (started < count) start(walk), under_way[running++] = &walk;
     while (running > 0)
         for (std::size_t w = 0; w < running; ++w) {
-            if (under_way[w]->step(*this)) continue;
+            if (under_way[w]->step(*this)) {
+                if constexpr (at_once > few_walks) under_way[w]->ask_ahead(*this);
+                continue;
+            }
             done(under_way[w]->number, under_way[w]->task);
             if (started < count) start(*under_way[w]);
             else under_way[w--] = under_way[--running];
         }
-}
-
-template <class Touches, class Visit>
-void LightHierarchy::for_each_touching(const Touches& touches, const Visit& visit) const
-{
-    if (nodes_.empty()) return;
-    std::array<std::uint32_t, WaitingNodes::most> stack;  // NOLINT: filled before it is read
-    std::size_t depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        const Node& node = nodes_[stack[--depth]];
-        for (std::uint32_t k = 0; k < node.nodes; ++k) {
-            const BoxBall ball = ball_around(node, k);
-            if (touches(ball.center, ball.radius)) stack[depth++] = node.first_node + k;
-        }
-        for (std::uint32_t k = 0; k < node.lights; ++k) {
-            const LightIndex j = order_[node.first_light + k];
-            const Light& light = (*lights_)[static_cast<std::size_t>(j)];
-            if (touches(light.center, light.radius) && !visit(j)) return;
-        }
-    }
 }
 
 }  // namespace mis
