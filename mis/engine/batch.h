@@ -13,8 +13,11 @@ namespace mis {
 /// How many samples a batch holds: its columns together fit the first-level cache.
 inline constexpr int batch_capacity = 256;
 
+/// Lanes may begin at any row: so many numbers stand behind the last one.
+inline constexpr int lane_room = 16;
+
 /// One quantity of all rows of a batch.
-template <class T> using Column = std::array<T, batch_capacity>;
+template <class T> using Column = std::array<T, batch_capacity + lane_room>;
 
 /// A vector quantity: one column per component.
 template <class T> struct VecColumn {
@@ -49,6 +52,7 @@ template <class T> struct Batch {
     int rows = 0;                                ///< of the half that runs now
     std::uint32_t draw = 0;                      ///< number of the draw within the sample
     bool rows_are_samples = false;               ///< all of them, in order: start_rows() did so
+    int runs = 0;                                ///< of rows of one point, while that holds
     std::size_t points = 0;                      ///< shading points that have a table here
     std::uint64_t invalid = 0, shadow_rays = 0;  ///< counted over all batches
     SampleName first_invalid;                    ///< where invalid > 0
@@ -57,6 +61,9 @@ template <class T> struct Batch {
     alignas(64) Column<std::int32_t> sample_point;  ///< which of the batch's points
     alignas(64) Column<std::uint64_t> sample_number;
     VecColumn<double> value;  ///< radiance, W·sr⁻¹·m⁻²: dim lights after a bright one must count
+
+    // Per run.
+    std::array<std::int32_t, batch_capacity> run_end;  ///< its last row + 1
 
     // Per point of this batch.
     std::array<TableSlot, batch_capacity> tables;

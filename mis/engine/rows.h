@@ -44,6 +44,28 @@ MIS_INLINE const ShadingPoint& shading_point(const TileJob<T>& job, const Batch<
         batch.point[static_cast<std::size_t>(row)])]];
 }
 
+/// body(first, end) for each run of rows of one point.
+template <class T, class Body> MIS_INLINE void for_each_run(const Batch<T>& batch, const Body& body)
+{
+    for (int run = 0, first = 0; first < batch.rows; ++run) {
+        int end = first + 1;
+        if (batch.rows_are_samples) {
+            end = batch.run_end[static_cast<std::size_t>(run)];
+        } else {
+            const std::int32_t point = batch.point[static_cast<std::size_t>(first)];
+            while (end < batch.rows && batch.point[static_cast<std::size_t>(end)] == point) ++end;
+        }
+        body(first, end);
+        first = end;
+    }
+}
+
+/// Number of a row's sample.
+template <class T> MIS_INLINE std::uint64_t sample_of(const Batch<T>& batch, std::size_t row)
+{
+    return batch.sample_number[static_cast<std::size_t>(batch.slot[row])];
+}
+
 /// wi in double and of length 1. As a float it is 6e-8 too long or too short, by which rays along
 /// the edge of a light that fills half the sky, 2e-4 rad of it, would miss it.
 template <class T> MIS_INLINE Vec3<double> unit_direction(const Batch<T>& batch, int row)

@@ -17,13 +17,22 @@ struct WordColumns {
 template <class T>
 void gather_counters(const TileJob<T>& job, const Batch<T>& batch, Block block, WordColumns& words)
 {
-    for (int row = 0; row < batch.rows; ++row) {
-        const auto i = static_cast<std::size_t>(row);
-        const std::uint64_t sample = batch.sample_number[static_cast<std::size_t>(batch.slot[i])];
-        const Words start =
-            counter_words({shading_point(job, batch, row).id, sample, batch.draw}, block);
+    const auto put = [&](std::size_t i, std::uint32_t id, std::uint64_t sample)
+        __attribute__((always_inline))
+    {
+        const Words start = counter_words({id, sample, batch.draw}, block);
         words.a[i] = start[0], words.b[i] = start[1], words.c[i] = start[2], words.d[i] = start[3];
-    }
+    };
+    for_each_run(
+        batch, [&](int first, int end) __attribute__((always_inline)) {
+            const std::uint32_t id = shading_point(job, batch, first).id;
+            const auto begin = static_cast<std::size_t>(first),
+                       last = static_cast<std::size_t>(end);
+            if (batch.rows_are_samples)
+                for (std::size_t i = begin; i < last; ++i) put(i, id, batch.sample_number[i]);
+            else
+                for (std::size_t i = begin; i < last; ++i) put(i, id, sample_of(batch, i));
+        });
 }
 
 inline void scramble(std::uint64_t seed, int rows, WordColumns& words)

@@ -5,65 +5,109 @@
 namespace mis {
 inline namespace MIS_ISA {
 
-// Could a direction meet a light at all? Lanes of samples against every light of a scene with few,
-// with room for every rounding: what is ruled out here cannot meet one, what is not is tested in
-// double by the hierarchy.
+// Could a direction meet a light at all? All lights of a scene with few are seen from a point in
+// lanes of lights, then lanes of its samples are held against each: with room for every rounding.
+// What is ruled out here cannot meet one, what is not is tested in double by the hierarchy.
 
-/// Positions relative to the tile's origin and directions are rounded to T: the ray may pass this
-/// much beside.
+/// The lights as one point sees them, a little larger and nearer than they are.
+template <class T> struct ScreenedLights {
+    using OfEach = std::array<T, most_screened_lights>;
+    alignas(64) OfEach x, y, z;  ///< of the unit direction to the centre
+    alignas(64) OfEach cos_max;  ///< of the angle to it beyond which nothing meets the light
+    alignas(64) OfEach nearest;  ///< no point of it is nearer; scene units
+};
+
+/// Positions relative to the tile's origin are rounded to T: by `slack` a centre may be beside. A
+/// ray that meets the ball passes the centre as it is here by r + slack at most, so
+/// sin θ ≤ (r + slack)/d. The cosine is taken below by more than what its own terms round by, and
+/// than a direction's length is off: by that of a float in any number type, as points keep their
+/// directions in float.
 template <class V, class T>
-MIS_INLINE V slack_of(const LightColumns<T>& lights, std::size_t k, const Vec3<V>& to_center,
-                      const Vec3<V>& x)
+MIS_INLINE void see_lights(const LightColumns<T>& lights, const Vec3<T>& point,
+                           ScreenedLights<T>& seen)
 {
-    using std::abs;
-    const V light = abs(V(lights.x[k])) + abs(V(lights.y[k])) + abs(V(lights.z[k]));
-    const V point = abs(x.x) + abs(x.y) + abs(x.z);
-    const V between = abs(to_center.x) + abs(to_center.y) + abs(to_center.z);
-    return (light + point + between) * V(std::numeric_limits<T>::epsilon() * 4);
+    using std::abs, std::sqrt;
+    const V epsilon(std::numeric_limits<T>::epsilon()), zero = number<V>(0), one = number<V>(1);
+    const Vec3<V> x{V(point.x), V(point.y), V(point.z)};
+    const V from_origin = abs(x.x) + abs(x.y) + abs(x.z);
+    for (std::size_t k = 0; k < lights.count; k += lane_count<V>) {
+        const Vec3<V> center{load_lanes<V>(&lights.x[k]), load_lanes<V>(&lights.y[k]),
+                             load_lanes<V>(&lights.z[k])};
+        const Vec3<V> to_center = center - x;
+        const V between = abs(to_center.x) + abs(to_center.y) + abs(to_center.z);
+        const V slack = (abs(center.x) + abs(center.y) + abs(center.z) + from_origin + between) *
+                        (epsilon * number<V>(4));
+        const V reach = load_lanes<V>(&lights.radius[k]) + slack;
+        const V d = length(to_center);
+        const V inverse = one / max_of(d, number<V>(1e-37));
+        const V sin_max = reach * inverse;
+        const V cos2 = one - sin_max * sin_max - epsilon * number<V>(8);
+        const V cos_max = sqrt(max_of(cos2, zero)) - number<V>(2e-6);
+        store_lanes(&seen.x[k], V(to_center.x * inverse));
+        store_lanes(&seen.y[k], V(to_center.y * inverse));
+        store_lanes(&seen.z[k], V(to_center.z * inverse));
+        store_lanes(&seen.cos_max[k],
+                    select(d > max_of(reach, number<V>(1e-18)), cos_max, number<V>(-2)));
+        store_lanes(&seen.nearest[k], V(d * (one - epsilon * number<V>(8)) - reach));
+    }
+}
+
+/// body(row, seen, wi) for lanes of each point's rows, after its lights were seen.
+template <class V, class T, class Body>
+MIS_INLINE void hold_against_lights(const TileJob<T>& job, const Batch<T>& batch, const Body& body)
+{
+    ScreenedLights<T> seen;  // NOLINT: filled as far as it is read
+    for_each_run(
+        batch, [&](int first, int end) __attribute__((always_inline)) {
+            see_lights<V>(job.columns, batch.x.at(first), seen);
+            for (int row = first; row < end; row += static_cast<int>(lane_count<V>))
+                body(row, seen, batch.wi.template get<V>(row));
+        });
+}
+
+template <class V, class T>
+MIS_INLINE auto may_meet(const ScreenedLights<T>& seen, std::size_t k, const Vec3<V>& wi)
+{
+    return V(seen.x[k]) * wi.x + V(seen.y[k]) * wi.y + V(seen.z[k]) * wi.z >= V(seen.cos_max[k]);
 }
 
 /// wi → candidate: could wi meet any light?
 template <class V, class T> void screen_meeting(const TileJob<T>& job, Batch<T>& batch)
 {
-    const LightColumns<T>& lights = job.columns;
     const V zero = number<V>(0), one = number<V>(1);
-    for_each_lane_group<V>(batch.rows, [&](int row) {
-        const Vec3<V> x = batch.x.template get<V>(row), wi = batch.wi.template get<V>(row);
-        V candidate = zero;
-        for (std::size_t k = 0; k < lights.count; ++k) {
-            const Vec3<V> to_center = Vec3<V>{V(lights.x[k]), V(lights.y[k]), V(lights.z[k])} - x;
-            const V slack = slack_of(lights, k, to_center, x), reach = V(lights.radius[k]) + slack;
-            const V near = select(length2(cross(to_center, wi)) <= square(reach), one, zero);
-            candidate = max_of(candidate, select(dot(to_center, wi) > -slack, near, zero));
-        }
-        set_lanes(batch.candidate, row, candidate);
-    });
+    hold_against_lights<V>(
+        job, batch,
+        [&](int row, const ScreenedLights<T>& seen, const Vec3<V>& wi)
+            __attribute__((always_inline)) {
+                V candidate = zero;
+                for (std::size_t k = 0; k < job.columns.count; ++k)
+                    candidate = select(may_meet(seen, k, wi), one, candidate);
+                set_lanes(batch.candidate, row, candidate);
+            });
 }
 
 /// wi, light, distance → candidate: could another light stand before it?
 template <class V, class T> void screen_hiding(const TileJob<T>& job, Batch<T>& batch)
 {
-    const LightColumns<T>& lights = job.columns;
     const V zero = number<V>(0), one = number<V>(1);
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i)
         batch.light_number[i] = static_cast<T>(job.place_of(batch.light[i]));
-    for_each_lane_group<V>(batch.rows, [&](int row) {
-        const Vec3<V> x = batch.x.template get<V>(row), wi = batch.wi.template get<V>(row);
-        const V light = lanes_of<V>(batch.light_number, row),
-                distance = lanes_of<V>(batch.distance, row);
-        V candidate = zero;
-        for (std::size_t k = 0; k < lights.count; ++k) {
-            const Vec3<V> to_center = Vec3<V>{V(lights.x[k]), V(lights.y[k]), V(lights.z[k])} - x;
-            const V slack = slack_of(lights, k, to_center, x), reach = V(lights.radius[k]) + slack;
-            const V along = dot(to_center, wi);
-            V hides = select(length2(cross(to_center, wi)) <= square(reach), one, zero);
-            hides = select(along > -slack, hides, zero);
-            hides =
-                select(along - reach <= distance + slack + distance * number<V>(1e-5), hides, zero);
-            candidate = max_of(candidate, select(light == V(static_cast<T>(k)), zero, hides));
-        }
-        set_lanes(batch.candidate, row, candidate);
-    });
+    hold_against_lights<V>(
+        job, batch,
+        [&](int row, const ScreenedLights<T>& seen, const Vec3<V>& wi)
+            __attribute__((always_inline)) {
+                const V light = lanes_of<V>(batch.light_number, row);
+                // Near the rim of a light, its distance is known to a thousandth of its radius.
+                const V limit = lanes_of<V>(batch.distance, row) * number<V>(1 + 1e-5) +
+                                lanes_of<V>(batch.radius, row) * number<V>(1e-3);
+                V candidate = zero;
+                for (std::size_t k = 0; k < job.columns.count; ++k) {
+                    const V near = select(V(seen.nearest[k]) <= limit, one, candidate);
+                    const V hides = select(may_meet(seen, k, wi), near, candidate);
+                    candidate = select(light == V(static_cast<T>(k)), candidate, hides);
+                }
+                set_lanes(batch.candidate, row, candidate);
+            });
 }
 
 }  // namespace MIS_ISA

@@ -1,8 +1,10 @@
 #include "mis/engine/stages_trace.h"
 
+#include "mis/engine/listed_rays.h"
 #include "mis/engine/rows.h"
 #include "mis/math/frame.h"
 #include "mis/sampling/sobol.h"
+#include "mis/trace/intersect.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +28,7 @@ template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
     if (batch.rows_are_samples) return;  // as the half before left them
     batch.rows_are_samples = true;
     batch.rows = batch.samples;
+    batch.runs = 0;
     std::iota(batch.slot.begin(), batch.slot.begin() + batch.rows, 0);
     std::copy_n(batch.sample_point.begin(), batch.rows, batch.point.begin());
     for (int row = 0; row < batch.rows;) {  // the samples of a point stand together
@@ -37,7 +40,7 @@ template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
         fill(batch.x, row, end, vec_cast<T>(point.x - job.origin));
         fill(batch.n, row, end, n);
         fill(batch.wo, row, end, frame_around(n).to_local(vec_cast<T>(point.wo)));
-        row = end;
+        batch.run_end[static_cast<std::size_t>(batch.runs++)] = row = end;
     }
     const int padded = std::min((batch.rows + 15) / 16 * 16, batch_capacity);
     for (int row = batch.rows; row < padded; ++row) {
@@ -112,12 +115,24 @@ template <class T> void meet_lights(const TileJob<T>& job, Batch<T>& batch)
     const bool is_screened = job.lights->size() <= most_screened_lights;
     std::array<std::int32_t, batch_capacity> row_of;  // NOLINT: filled as far as it is read
     std::size_t count = 0;
+    ListedRays<T> listed(job, batch);
     for (int row = 0; row < batch.rows; ++row) {
         const auto i = static_cast<std::size_t>(row);
         batch.light[i] = no_light;
-        row_of[count] = row;
-        count += !is_zero(batch.wi, row) && !(is_screened && batch.candidate[i] == 0);
+        if (is_zero(batch.wi, row) || (is_screened && batch.candidate[i] == 0)) continue;
+        const auto list_along = [wi = vec_cast<float>(batch.wi.at(row))](const Blockers& lists) {
+            return lists.often_along(wi);
+        };
+        if (is_screened || !listed.note(row, list_along)) row_of[count++] = row;
     }
+    listed.for_each_met(
+        [](int) { return std::numeric_limits<T>::infinity(); },
+        [&](int row, std::span<const ListedLight> lights) {
+            const LightHit hit = job.hierarchy->nearest(shading_point(job, batch, row).x,
+                                                        unit_direction(batch, row), lights);
+            batch.light[static_cast<std::size_t>(row)] = hit.light;
+            batch.distance[static_cast<std::size_t>(row)] = static_cast<T>(hit.distance);
+        });
     job.hierarchy->nearest_each(
         count,
         [&](std::size_t i) {
@@ -145,6 +160,7 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
     const bool is_screened = job.lights->size() <= most_screened_lights;
     std::array<std::int32_t, batch_capacity> row_of;  // NOLINT: filled as far as it is read
     std::size_t count = 0;
+    ListedRays<T> listed(job, batch);
     const auto ray_of = [&](int row) {
         return LightHierarchy::Ray{shading_point(job, batch, row).x,
                                    exact_direction(job, batch, row)};
@@ -154,15 +170,20 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
         if (is_screened && batch.candidate[static_cast<std::size_t>(row)] == 0) continue;
         const LightIndex j = batch.light[static_cast<std::size_t>(row)];
         if (job.knows(j, unhidden)) continue;
-        const auto others = job.blockers != nullptr ? job.blockers->before(j) : std::nullopt;
-        if (!others) {
+        if (!listed.note(row, [j](const Blockers& lists) { return lists.often_before(j); }))
             row_of[count++] = row;
-        } else if (!others->empty()) {
-            const LightHierarchy::Ray ray = ray_of(row);
-            if (job.hierarchy->hides(ray.x, ray.wi, own_hit(job, batch, row, ray.wi), *others))
-                batch.contribution.put(row, Vec3<T>(T(0)));
-        }
     }
+    listed.for_each_met(
+        // Near the rim of a light, its distance is known to a thousandth of its radius.
+        [&](int row) {
+            const auto i = static_cast<std::size_t>(row);
+            return batch.distance[i] + T(1e-3) * batch.radius[i];
+        },
+        [&](int row, std::span<const ListedLight> lights) {
+            const LightHierarchy::Ray ray = ray_of(row);
+            if (job.hierarchy->hides(ray.x, ray.wi, own_hit(job, batch, row, ray.wi), lights))
+                batch.contribution.put(row, Vec3<T>(T(0)));
+        });
     job.hierarchy->hides_each(
         count, [&](std::size_t i) { return ray_of(row_of[i]); },
         [&](std::size_t i, const LightHierarchy::Ray& ray) {
@@ -172,6 +193,18 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
             if (is_hidden) batch.contribution.put(row_of[i], Vec3<T>(T(0)));
         });
 }
+
+namespace {
+
+/// To a light, and no further than to what may touch it: rays start some way off their point and
+/// are traced in float, so what is met that little before the light is not nearer than it.
+ShadowRay shadow_ray(const ShadingPoint& point, const Vec3<float>& wi, double distance)
+{
+    const double off = float_offset(largest_coordinate(vec_cast<double>(point.ray_origin)));
+    return {point.ray_origin, wi, static_cast<float>(std::max(distance * (1 - 1e-6) - off, 0.0))};
+}
+
+}  // namespace
 
 template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
 {
@@ -183,9 +216,9 @@ template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
         if (is_zero(batch.contribution, row)) continue;
         if (job.knows(batch.light[static_cast<std::size_t>(row)], unshadowed)) continue;
         row_of[count] = row;
-        rays[count++] = {shading_point(job, batch, row).ray_origin,
-                         vec_cast<float>(batch.wi.at(row)),
-                         static_cast<float>(batch.distance[static_cast<std::size_t>(row)])};
+        rays[count++] =
+            shadow_ray(shading_point(job, batch, row), vec_cast<float>(batch.wi.at(row)),
+                       static_cast<double>(batch.distance[static_cast<std::size_t>(row)]));
     }
     job.surfaces->occluded(std::span(rays).first(count), std::span(hidden).first(count));
     batch.shadow_rays += count;
@@ -193,31 +226,14 @@ template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
         if (hidden[i] != 0) batch.contribution.put(row_of[i], Vec3<T>(T(0)));
 }
 
-template <class T> void add_contributions(const TileJob<T>& job, Batch<T>& batch)
-{
-    for (int row = 0; row < batch.rows; ++row) {
-        const Vec3<T> contribution = batch.contribution.at(row);
-        if (!std::isfinite(contribution.x + contribution.y + contribution.z)) {
-            if (batch.invalid++ == 0)
-                batch.first_invalid = {shading_point(job, batch, row).id,
-                                       batch.sample_number[static_cast<std::size_t>(
-                                           batch.slot[static_cast<std::size_t>(row)])]};
-            continue;
-        }
-        const int slot = batch.slot[static_cast<std::size_t>(row)];
-        batch.value.put(slot, batch.value.at(slot) + vec_cast<double>(contribution));
-    }
-}
-
-#define MIS_INSTANTIATE(T)                                        \
-    template void start_rows(const TileJob<T>&, Batch<T>&);       \
-    template void keep_light_rows(const TileJob<T>&, Batch<T>&);  \
-    template void keep_bsdf_rows(const TileJob<T>&, Batch<T>&);   \
-    template void meet_lights(const TileJob<T>&, Batch<T>&);      \
-    template void fetch_radiance(const TileJob<T>&, Batch<T>&);   \
-    template void hide_by_lights(const TileJob<T>&, Batch<T>&);   \
-    template void hide_by_surfaces(const TileJob<T>&, Batch<T>&); \
-    template void add_contributions(const TileJob<T>&, Batch<T>&);
+#define MIS_INSTANTIATE(T)                                       \
+    template void start_rows(const TileJob<T>&, Batch<T>&);      \
+    template void keep_light_rows(const TileJob<T>&, Batch<T>&); \
+    template void keep_bsdf_rows(const TileJob<T>&, Batch<T>&);  \
+    template void meet_lights(const TileJob<T>&, Batch<T>&);     \
+    template void fetch_radiance(const TileJob<T>&, Batch<T>&);  \
+    template void hide_by_lights(const TileJob<T>&, Batch<T>&);  \
+    template void hide_by_surfaces(const TileJob<T>&, Batch<T>&);
 MIS_INSTANTIATE(float)
 MIS_INSTANTIATE(double)
 #undef MIS_INSTANTIATE

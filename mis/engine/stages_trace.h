@@ -26,7 +26,4 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch);
 /// contribution = 0 where a surface stands before the light. Rows that are 0 already cost no ray.
 template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch);
 
-/// value[slot] += contribution; what is not finite is counted in `invalid`, and not added.
-template <class T> void add_contributions(const TileJob<T>& job, Batch<T>& batch);
-
 }  // namespace mis

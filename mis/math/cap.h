@@ -14,6 +14,7 @@ template <class T> struct Cap {
     T gap2;                  ///< d² − r²; scene units squared, > 0
     T sin_max;               ///< sin θ_max = r/d
     T inverse_one_plus_cos;  ///< 1/(1 + cos θ_max), in [½, 1]
+    T inverse_distance;      ///< 1/d
 
     /// 1 − cos θ_max = sin²θ_max/(1 + cos θ_max).
     MIS_INLINE T one_minus_cos() const { return sin_max * (sin_max * inverse_one_plus_cos); }
@@ -38,7 +39,8 @@ MIS_INLINE Cap<T> cap_towards(const Vec3<T>& to_center, const T& radius, const T
             radius,
             gap2,
             radius * inverse_d,
-            number<T>(1) / (number<T>(1) + cos_max)};
+            number<T>(1) / (number<T>(1) + cos_max),
+            inverse_d};
 }
 
 /// The same from the sphere and the point themselves, in one number type.

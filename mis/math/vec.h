@@ -34,7 +34,10 @@ template <class T> MIS_INLINE T length(const Vec3<T>& v)
 }
 
 /// v / |v|. Precondition: |v| > 0, and |v|² neither overflows nor underflows T.
-template <class T> MIS_INLINE Vec3<T> normalized(const Vec3<T>& v) { return v / length(v); }
+template <class T> MIS_INLINE Vec3<T> normalized(const Vec3<T>& v)
+{
+    return v * (T(static_cast<Scalar<T>>(1)) / length(v));  // one division, not three
+}
 
 /// A vector of another number type, component by component.
 template <class To, class From> MIS_INLINE Vec3<To> vec_cast(const Vec3<From>& v)

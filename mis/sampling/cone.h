@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/math/cap.h"
+#include "mis/math/turn.h"
 
 #include <limits>
 
@@ -16,16 +17,16 @@ template <class T> struct CapDraw {
 };
 
 /// The point (in polar coordinates about the axis) of the cap at which sin²θ = w · sin²θ_max, at
-/// azimuth φ. one_minus_cos: of θ.
+/// the azimuth of a point of the circle. one_minus_cos: of θ.
 template <class T>
 MIS_INLINE CapDraw<T> cap_draw_at(const Cap<T>& cap, const T& w, const T& one_minus_cos,
-                                  const T& phi)
+                                  const OnCircle<T>& azimuth)
 {
-    using std::sqrt, std::cos, std::sin;
+    using std::sqrt;
     const T sin_theta = cap.sin_max * sqrt(w);
     const Frame<T> frame = frame_around(cap.axis);
-    const Vec3<T> offset = frame.x * (sin_theta * cos(phi)) + frame.y * (sin_theta * sin(phi)) -
-                           cap.axis * one_minus_cos;
+    const Vec3<T> offset = frame.x * (sin_theta * azimuth.cos) +
+                           frame.y * (sin_theta * azimuth.sin) - cap.axis * one_minus_cos;
     const T half_chord = cap.radius * sqrt(max_of(number<T>(1) - w, number<T>(0)));
     const T along = cap.distance * (number<T>(1) - one_minus_cos);
     return {cap.axis + offset, offset, cap.gap2 / (along + half_chord), number<T>(0)};
@@ -38,7 +39,7 @@ template <class T> MIS_INLINE CapDraw<T> sample_cone(const Cap<T>& cap, const Ve
 {
     const T one_minus_cos = u.x * cap.one_minus_cos();  // uniform when the direction is
     const T w = u.x * cap.inverse_one_plus_cos * (number<T>(2) - one_minus_cos);
-    CapDraw<T> draw = cap_draw_at(cap, w, one_minus_cos, T(two_pi<T>) * u.y);
+    CapDraw<T> draw = cap_draw_at(cap, w, one_minus_cos, on_circle(u.y));
     draw.inverse_pdf_sin2 = T(two_pi<T>) * cap.inverse_one_plus_cos;
     return draw;
 }

@@ -29,10 +29,11 @@ template <class T> MIS_INLINE T height_over_sin(const TiltedCap<T>& cap)
 template <class T>
 MIS_INLINE ProjectedPoint<T> point_over_ellipse(const TiltedCap<T>& cap, const Vec2<T>& u)
 {
-    using std::cos, std::sin, std::sqrt;
+    using std::sqrt;
     const T zero = number<T>(0), one = number<T>(1), gamma = height_over_sin(cap);
-    const T rho = sqrt(u.x), rest = one - u.x, phi = T(two_pi<T>) * u.y;
-    const T p = rho * cos(phi), q = rho * sin(phi);
+    const T rho = sqrt(u.x), rest = one - u.x;
+    const OnCircle<T> azimuth = on_circle(u.y);
+    const T p = rho * azimuth.cos, q = rho * azimuth.sin;
     const T height = cap.cos_max * gamma + p * cap.sin_beta, z = sqrt(height * height + rest);
     const T lift =
         select(height > zero, rest / max_of(T(z + height), number<T>(1e-37)), z - height);

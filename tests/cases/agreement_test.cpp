@@ -209,7 +209,8 @@ template <class T> void expect_failure(const Suite& suite, Planted planted)
                           seed + 2 * k, plant<T>(planted));
         EXPECT_FALSE(verdict.wrong.empty()) << sets[k];
         for (const std::string& strategy : verdict.wrong)
-            EXPECT_TRUE(uses(strategy, planted)) << sets[k] << " " << strategy;
+            EXPECT_TRUE(uses(strategy, planted)) << sets[k] << " " << strategy << "\n"
+                                                 << verdict.what;
     }
 }
 

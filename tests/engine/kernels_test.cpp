@@ -133,6 +133,68 @@ std::vector<T> probabilities_of(std::string_view policy, const TestScene& test,
                           batch->probability.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
+/// Probabilities of the first lights at some points, whose tables are made `together` at a time.
+template <class T>
+std::vector<T> probabilities_at(std::span<const ShadingPoint> points, std::size_t together,
+                                std::string_view policy, const TestScene& test,
+                                const Kernels<T>& kernels)
+{
+    const ReadyStrategy<T> ready(test.lit, parse_strategy(std::string(policy) + "/light"), kernels,
+                                 1);
+    TileJob<T> job = ready.job(test.probes.tiles.at(0), points);
+    LargeVector<T> storage;
+    job.columns = fill_light_columns(test.scene.lights, job.origin, storage);
+    const auto stages = *std::find_if(kernels.policies.begin(), kernels.policies.end(),
+                                      [&](const auto& p) { return p.name == policy; });
+    Scratch scratch(points.size() * stages.table_bytes(test.scene.lights.size()) + 64);
+    const auto batch = std::make_unique<Batch<T>>();
+    for (std::size_t p = 0; p < points.size(); ++p)
+        batch->tile_point[p] = static_cast<std::uint32_t>(p);
+    for (std::size_t first = 0; first < points.size(); first += together) {
+        batch->points = std::min(first + together, points.size());
+        stages.prepare(job, *batch, first, scratch);
+    }
+    std::vector<T> found;
+    batch->rows = batch_capacity;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        for (std::size_t i = 0; i < batch_capacity; ++i)
+            batch->point[i] = static_cast<std::int32_t>(p),
+            batch->light[i] = static_cast<LightIndex>(i);
+        stages.probability(job, *batch);
+        found.insert(found.end(), batch->probability.begin(),
+                     batch->probability.begin() + batch_capacity);
+    }
+    return found;
+}
+
+/// Of so many lights that no weights are kept, points share a walk over the columns.
+template <class T> void expect_the_same_tables_together_as_alone()
+{
+    Lights lights;
+    for (int j = 0; j < 17'001; ++j)
+        lights.push_back(make_light({(j % 131 - 65) * 0.1, 3 + j % 7, (j / 131 - 65) * 0.1}, 0.01,
+                                    Vec3<double>(1 + j % 13)));
+    const Material material{.type = "blinn", .exponent = 40};
+    const TestScene test(probe_under(lights, material));
+    std::vector<ShadingPoint> points(3, test.probes.points.at(0));
+    points[1].x.x += 1.5, points[2].x.z -= 4;
+    for (const std::string_view set : instruction_sets())
+        for (const char* policy : {"solid-angle", "irradiance", "product"}) {
+            const Kernels<T>& kernels = kernels_of<T>(set);
+            const std::vector<T> alone = probabilities_at<T>(points, 1, policy, test, kernels);
+            EXPECT_EQ(probabilities_at<T>(points, 3, policy, test, kernels), alone) << set;
+            EXPECT_NE(
+                std::vector<T>(alone.begin(), alone.begin() + batch_capacity),
+                std::vector<T>(alone.begin() + batch_capacity, alone.begin() + 2 * batch_capacity));
+            EXPECT_GT(*std::min_element(alone.begin(), alone.end()), 0);
+        }
+}
+TEST(InstructionSets, PrepareSomePointsTogetherAsEachAlone)
+{
+    expect_the_same_tables_together_as_alone<float>();
+    expect_the_same_tables_together_as_alone<double>();
+}
+
 template <class T> void expect_irradiances(const Kernels<T>& kernels)
 {
     const LowLights low(std::is_same_v<T, float> ? 1e-3 : 1e-8);

@@ -2,6 +2,7 @@
 // sees.
 #include "mis/bsdf/registry.h"
 #include "mis/trace/analytic.h"
+#include "mis/trace/embree.h"
 
 #include "tests/engine/bench.h"
 #include "tests/support/statistics.h"
@@ -107,6 +108,32 @@ TEST(EveryStrategy, HasTheSameMeanWithHiddenCopies)
 }
 
 /// A black light hides what is behind it, and a plate that is no light does, too.
+/// Glass around each light, just as large, near the origin and far from it.
+TEST(EveryStrategy, SeesALightWhoseSurfaceATouchingSphereShares)
+{
+    for (const double around : {0.0, 1e4}) {
+        Scene scene = probe_under(three_lights_apart(), grey_floor());
+        scene.probes[0].position += Vec3<double>(around);
+        for (Light& light : scene.lights) {
+            light.center += Vec3<double>(around);
+            scene.surfaces.push_back({SphereSurface{light.center, light.radius}, 0});
+        }
+        const double exact = reference(TestScene(scene));
+        const EmbreeTracer embree(scene);
+        const AnalyticTracer analytic(scene);
+        for (const SurfaceTracer* tracer :
+             std::initializer_list<const SurfaceTracer*>{&embree, &analytic})
+            for (const char* name : {"uniform/light", "brdf", "solid-angle/power"}) {
+                const Outcome outcome =
+                    run_probe<float>(TestScene(scene, tracer), parse_strategy(name),
+                                     kernels<float>(), scaled(100'000), seed);
+                EXPECT_LT(std::abs(z_of(outcome, exact)), z_bound(false_alarm, tests_at_most))
+                    << name << ", around " << around << ": mean " << outcome.result.luminance.mean
+                    << ", exact " << exact;
+            }
+    }
+}
+
 TEST(EveryStrategy, LosesExactlyTheLightThatSomethingDarkHides)
 {
     const Lights lights = three_lights_apart(), visible(lights.begin() + 1, lights.end());

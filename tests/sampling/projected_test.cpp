@@ -197,7 +197,8 @@ template <class V> void expect_lanes_agree()
                           lanes(&C::radius),
                           lanes(&C::gap2),
                           lanes(&C::sin_max),
-                          lanes(&C::inverse_one_plus_cos)};
+                          lanes(&C::inverse_one_plus_cos),
+                          lanes(&C::inverse_distance)};
         const Vec2<V> both{lanes_from<V>([&](std::size_t i) { return u[i].x; }),
                            lanes_from<V>([&](std::size_t i) { return u[i].y; })};
         const Vec3<V> n{V(S(0)), V(S(0)), V(S(1))};
