@@ -35,6 +35,14 @@ struct AnyBsdf {
     }
 };
 
+/// Has it no lobe beside its diffuse part?
+inline bool is_diffuse(const AnyBsdf& bsdf)
+{
+    bool is = false;
+    bsdf.visit([&](const auto& formula) { is = formula.is_diffuse(); });
+    return is;
+}
+
 /// The number of the formula of a type of BSDF; −1 for a name that is not in the registry.
 inline int bsdf_number(std::string_view name)
 {

@@ -28,7 +28,8 @@ struct LobeExtent {
 /// from the point, with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a
 /// wi with wi.z ≤ 0 is a lost draw, which contributes 0 and is not redrawn, so ∫pdf over the
 /// hemisphere + P(lost) = 1. draws(): false where all is black. has_lobe: false where no material
-/// has one, whatever it says.
+/// has one, whatever it says. is_diffuse(): this one has none; a type that has a lobe and can lack
+/// it has evaluate_diffuse(wi), which then is evaluate(wo, wi) to the last bit.
 // clang-format off
 template <class B, class T>
 concept Bsdf = std::constructible_from<B, const Material&> &&
@@ -38,6 +39,7 @@ concept Bsdf = std::constructible_from<B, const Material&> &&
     { bsdf.evaluate(w, w) } -> std::same_as<BsdfValue<T>>;
     { bsdf.sample(w, lobe, u) } -> std::same_as<Vec3<T>>;
     { bsdf.draws() } -> std::same_as<bool>;
+    { bsdf.is_diffuse() } -> std::same_as<bool>;
     { bsdf.lobe() } -> std::same_as<LobeExtent>;
 };
 // clang-format on
@@ -102,6 +104,11 @@ struct HalfVectorBsdf {
                 number<T>(1 - s) * cosine_pdf(wi.z) +
                     number<T>(s) * reflected_lobe_pdf(lobe, h.wo_dot_h, m)};
     }
+    template <class T> MIS_INLINE BsdfValue<T> evaluate_diffuse(const Vec3<T>& wi) const
+    {
+        return {color<T>(diffuse), cosine_pdf(wi.z)};
+    }
+    bool is_diffuse() const { return specular == Vec3<double>(0) && s <= 0; }
     template <class T>
     MIS_INLINE Vec3<T> sample(const Vec3<T>& wo, const T& lobe, const Vec2<T>& u) const
     {

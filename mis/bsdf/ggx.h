@@ -48,6 +48,7 @@ public:
     }
 
     bool draws() const { return true; }  // at grazing angles F is 1, whatever f0
+    bool is_diffuse() const { return false; }
     MIS_INLINE LobeExtent lobe() const
     {
         const double y = luminance(f0_);
@@ -74,7 +75,7 @@ private:
     template <class T>
     MIS_INLINE Vec3<T> sample_visible_normal(const Vec3<T>& wo, const Vec2<T>& u) const
     {
-        using std::sqrt, std::cos, std::sin;
+        using std::sqrt;
         const T alpha = number<T>(alpha_), one = number<T>(1);
         const Vec3<T> stretched = normalized(Vec3<T>{wo.x * alpha, wo.y * alpha, wo.z});
         const T across2 = square(stretched.x) + square(stretched.y);
@@ -83,11 +84,12 @@ private:
         const Vec3<T> t1{select(tilted, -stretched.y * inverse, one),
                          select(tilted, stretched.x * inverse, number<T>(0)), number<T>(0)};
         const Vec3<T> t2 = cross(stretched, t1);
-        const T r = sqrt(u.x), phi = T(two_pi<T>) * u.y;
-        const T p1 = r * cos(phi);
+        const T r = sqrt(u.x);
+        const OnCircle<T> azimuth = on_circle(u.y);
+        const T p1 = r * azimuth.cos;
         const T tilt = number<T>(0.5) * (one + stretched.z);
         const T p2 =
-            (one - tilt) * sqrt(max_of(one - square(p1), number<T>(0))) + tilt * (r * sin(phi));
+            (one - tilt) * sqrt(max_of(one - square(p1), number<T>(0))) + tilt * (r * azimuth.sin);
         const T p3 = sqrt(max_of(one - square(p1) - square(p2), number<T>(0)));
         const Vec3<T> visible = t1 * p1 + t2 * p2 + stretched * p3;
         return normalized(

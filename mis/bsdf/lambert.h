@@ -20,6 +20,7 @@ public:
         return sample_cosine(u);
     }
     bool draws() const { return luminance(f_) > 0; }
+    bool is_diffuse() const { return true; }
     MIS_INLINE LobeExtent lobe() const { return {luminance(f_), 0, 0}; }
 
 private:

@@ -1,5 +1,6 @@
 #include "mis/cli/options.h"
 
+#include "mis/effects/effects.h"
 #include "mis/io/scene_json.h"
 #include "mis/run/tbb.h"
 #include "mis/scene/validate.h"
@@ -85,7 +86,7 @@ std::array<int, 2> parse_resolution(const std::string& text)
 
 std::string effect_off(const RunOptions& options)
 {
-    for (const char* name : {"shadows", "light_occlusion"})
+    for (const char* name : effect_names)
         if (options.effects == name + std::string("=off")) return name;
     return "";
 }
@@ -94,8 +95,8 @@ Scene read_scene_for(const std::string& file, const RunOptions& options)
 {
     if (options.effects != "auto" && options.effects != "all" && effect_off(options).empty())
         throw UsageError("--effects: found \"" + options.effects +
-                         "\"; known are auto, all, and NAME=off with a name of shadows, "
-                         "light_occlusion");
+                         "\"; known are auto, all, and NAME=off with a name of " +
+                         fmt::format("{}", fmt::join(effect_names, ", ")));
     if (options.sampler != "independent" && options.sampler != "sobol")
         throw UsageError("--sampler: found \"" + options.sampler +
                          "\"; known are independent, sobol");

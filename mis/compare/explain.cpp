@@ -35,12 +35,10 @@ void count_surfaces(Explanation& found, const std::vector<Surface>& surfaces)
 }
 
 /// Adds the points of a band, or the probes, to what was found; shares: sums over tiles, so far.
-void count_points(Explanation& found, const GBuffer& shading, EffectShares& sums)
+void count_points(Explanation& found, const LitScene& lit, const GBuffer& shading,
+                  EffectShares& sums)
 {
-    const EffectShares shares = effect_shares(shading);
-    const double tiles = static_cast<double>(shading.tiles.size());
-    sums.shadows += shares.shadows * tiles;
-    sums.light_occlusion += shares.light_occlusion * tiles;
+    sums.add(lit.tiles_that_call(shading));
     found.shading_points += shading.points.size() + shading.dark.size();
     found.dark_points += shading.dark.size();
     found.background_pixels += shading.background.size();
@@ -61,7 +59,7 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
     count_surfaces(found, scene.surfaces);
     for (const Material& material : scene.materials)
         found.materials.push_back({material.name, material.type, 0});
-    EffectShares sums{0, 0};
+    EffectShares sums;
     GBuffer some;  // of the picture's middle band, or of the probes
     if (scene.camera) {
         found.width = scene.camera->resolution[0];
@@ -71,19 +69,17 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
             GBuffer band = find_shading_points(scene, lit.lights(), lit.surfaces(), row,
                                                std::min(256, found.height - row), executor);
             lit.plan(band, executor);
-            count_points(found, band, sums);
+            count_points(found, lit, band, sums);
             if (row <= found.height / 2) some = spread_tiles(band, most_tiles_of_savings);
         }
     } else {
         GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces());
         lit.plan(probes, executor);
-        count_points(found, probes, sums);
+        count_points(found, lit, probes, sums);
         some = spread_tiles(probes, most_tiles_of_savings);
     }
     found.probes = scene.probes.size();
-    const double tiles = static_cast<double>(std::max<std::size_t>(found.tiles, 1));
-    found.effects =
-        explained(scene, lit.effects(), {sums.shadows / tiles, sums.light_occlusion / tiles});
+    found.effects = explained(scene, lit.effects(), sums.of(found.tiles));
     measure_savings(lit, some, found.effects);
     found.light_bytes = scene.lights.size() * sizeof(Light);
     found.hierarchy_bytes = lit.lights().bytes();

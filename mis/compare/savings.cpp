@@ -11,14 +11,35 @@ namespace {
 
 constexpr int repetitions = 7, samples = 4;
 
+/// An effect that its tile says: where, and by which proof of single lights.
+struct OfTiles {
+    const char* name;
+    bool Effects::*of_scene;
+    bool TilePlan::*effect;
+    std::uint8_t proof;
+};
+constexpr std::array of_tiles{
+    OfTiles{"shadows", &Effects::shadows, &TilePlan::shadows, unshadowed},
+    OfTiles{"light_occlusion", &Effects::light_occlusion, &TilePlan::light_occlusion, unhidden},
+    OfTiles{"horizon", &Effects::horizon, &TilePlan::horizon, 0}};
+
+/// One that the scene or a material says.
+struct OfMaterials {
+    const char* name;
+    bool Effects::*effect;
+};
+constexpr std::array of_materials{OfMaterials{"specular", &Effects::specular},
+                                  OfMaterials{"choice", &Effects::choice},
+                                  OfMaterials{"colour", &Effects::colour}};
+
 /// The buffer with an effect simulated for every tile and light again.
-GBuffer with_effect(GBuffer shading, bool TilePlan::*effect, LightProof proof)
+GBuffer with_effect(GBuffer shading, const OfTiles& of)
 {
     for (Tile& tile : shading.tiles) {
-        tile.plan.*effect = true;
-        if (proof == unhidden) tile.plan.blockers = nullptr;
+        tile.plan.*of.effect = true;
+        if (of.proof == unhidden) tile.plan.blockers = nullptr;
         for (std::uint8_t& proofs : tile.plan.lights)
-            proofs = static_cast<std::uint8_t>(proofs & ~proof);
+            proofs = static_cast<std::uint8_t>(proofs & ~of.proof);
     }
     return shading;
 }
@@ -36,14 +57,19 @@ TileTotals run(const ReadyStrategy<float>& strategy, Workspace<float>& workspace
     return totals;
 }
 
-void measure(const ReadyStrategy<float>& strategy, const GBuffer& planned, const GBuffer& full,
-             EffectPlan& effect)
+/// A strategy, and the tiles that it runs over.
+struct Way {
+    const ReadyStrategy<float>& strategy;
+    const GBuffer& shading;
+};
+
+void measure(const Way& lean, const Way& full, EffectPlan& effect)
 {
     Workspace<float> workspace;
     std::array<double, repetitions> saved{};
     for (double& seconds : saved) {
-        const TileTotals with = run(strategy, workspace, full),
-                         without = run(strategy, workspace, planned);
+        const TileTotals with = run(full.strategy, workspace, full.shading),
+                         without = run(lean.strategy, workspace, lean.shading);
         const double count = static_cast<double>(with.samples);
         seconds = (with.seconds - without.seconds) / count;
         effect.saved_rays_per_sample =
@@ -74,15 +100,21 @@ void measure_savings(const LitScene& scene, const GBuffer& shading,
                      std::vector<EffectPlan>& effects)
 {
     if (!scene.effects().by_tile || shading.tiles.empty()) return;
-    const ReadyStrategy<float> strategy(scene, parse_strategy("uniform/power"), kernels<float>(),
-                                        1);
+    const auto ready = [&](const Effects& also) {
+        return ReadyStrategy<float>(scene, parse_strategy("uniform/power"), kernels<float>(), 1,
+                                    also);
+    };
+    const ReadyStrategy<float> strategy = ready(no_effects);
     for (EffectPlan& effect : effects) {
-        if (effect.name == "shadows" && scene.effects().shadows)
-            measure(strategy, shading, with_effect(shading, &TilePlan::shadows, unshadowed),
-                    effect);
-        if (effect.name == "light_occlusion" && scene.effects().light_occlusion)
-            measure(strategy, shading, with_effect(shading, &TilePlan::light_occlusion, unhidden),
-                    effect);
+        for (const OfTiles& of : of_tiles)
+            if (effect.name == of.name && scene.effects().*of.of_scene)
+                measure({strategy, shading}, {strategy, with_effect(shading, of)}, effect);
+        for (const OfMaterials& of : of_materials) {
+            if (effect.name != of.name || effect.share == 1) continue;
+            Effects also = no_effects;
+            also.*of.effect = true;
+            measure({strategy, shading}, {ready(also), shading}, effect);
+        }
     }
 }
 

@@ -78,7 +78,8 @@ private:
         report.shading_points = study_.points->figure_points;
         report.background_pixels = study_.points->shading.background.size();
         const GBuffer& shading = study_.points->shading;
-        report.effects = explained(scene, scene_.effects(), effect_shares(shading));
+        report.effects = explained(scene, scene_.effects(),
+                                   scene_.tiles_that_call(shading).of(shading.tiles.size()));
         measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report.effects);
     }
 

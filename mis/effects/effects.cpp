@@ -1,6 +1,24 @@
 #include "mis/effects/effects.h"
 
+#include <algorithm>
+
 namespace mis {
+
+namespace {
+bool is_grey(const Vec3<double>& rgb) { return rgb.x == rgb.y && rgb.y == rgb.z; }
+}  // namespace
+
+bool are_grey(const Lights& lights)
+{
+    return std::all_of(lights.begin(), lights.end(), [](const Light& light) {
+        return is_grey(vec_cast<double>(light.radiance_radius));
+    });
+}
+
+bool is_grey(const Material& material)
+{
+    return is_grey(material.diffuse) && is_grey(material.specular);
+}
 
 Effects all_effects(const Scene& scene) { return {.lights = scene.lights.size()}; }
 
@@ -8,7 +26,10 @@ Effects called_for(const Scene& scene)
 {
     Effects effects = all_effects(scene);
     effects.shadows = !scene.surfaces.empty();
-    effects.light_occlusion = scene.lights.size() > 1;
+    effects.light_occlusion = effects.choice = scene.lights.size() > 1;
+    effects.colour = !are_grey(scene.lights) ||
+                     std::any_of(scene.materials.begin(), scene.materials.end(),
+                                 [](const Material& material) { return !is_grey(material); });
     effects.by_tile = true;
     return effects;
 }
@@ -50,6 +71,22 @@ std::vector<EffectPlan> explained(const Scene& scene, const Effects& effects,
              "one light, so no other can stand before it",
              counted(scene.lights.size(), "light") + " may stand before one another" + apart,
              "from no tile does a light stand before another"),
+        plan("horizon", effects.horizon, shares.horizon, "no point's horizon matters",
+             std::string("the horizon may cut or hide lights") +
+                 (shares.horizon < 1 ? "; elsewhere all lights are wholly above it" : ""),
+             "from every tile all lights are wholly above the horizon"),
+        plan("specular", effects.specular, shares.specular, "no material has a lobe",
+             std::string("materials have a lobe beside their diffuse part") +
+                 (shares.specular < 1 ? "; elsewhere there is none, or it is black" : ""),
+             "no material in view has a lobe that is not black"),
+        plan("choice", effects.choice, shares.choice, "one light, so there is no choice to make",
+             "one of " + counted(scene.lights.size(), "light") + " is chosen",
+             "one light, so there is no choice to make"),
+        plan("colour", effects.colour, shares.colour,
+             "lights and materials are grey: one channel is added up for all three",
+             std::string("lights or materials are coloured") +
+                 (shares.colour < 1 ? "; elsewhere both are grey" : ""),
+             "lights, and materials in view, are grey: one channel is added up for all three"),
     };
 }
 

@@ -38,7 +38,7 @@ struct TilePlanner::TileBounds {
     Vec3<double> low, high;     ///< of the points and of their rays' origins
     Vec3<double> normal;        ///< mean of the points', unit
     double spread;              ///< no point's normal is further from it
-    double lowest;              ///< of normal · (x − middle)
+    double lowest, highest;     ///< of normal · (x − middle)
     std::vector<Heights> over;  ///< [body]
 
     Shaft towards(const Vec3<double>& center, double radius) const
@@ -46,11 +46,12 @@ struct TilePlanner::TileBounds {
         return {low, high, center, radius};
     }
     bool is_below(const Light& light) const;
+    bool is_above(const Vec3<double>& center, double radius) const;
 };
 
 TilePlanner::TilePlanner(const Scene& scene, const LightHierarchy& hierarchy,
                          const Effects& effects, const Vec3<double>& frame)
-    : scene_(&scene), hierarchy_(&hierarchy), effects_(effects), frame_(frame)
+    : scene_(&scene), effects_(effects), frame_(frame)
 {
     for (const Surface& surface : scene.surfaces) {
         Body body;
@@ -74,6 +75,8 @@ TilePlanner::TilePlanner(const Scene& scene, const LightHierarchy& hierarchy,
         body.clearance = 0.5 * float_offset(largest);
         bodies_.push_back(std::move(body));
     }
+    if (scene.lights.size() <= Blockers::most_lights)
+        spheres_ = std::make_shared<FloatSpheres>(scene.lights, hierarchy.origin());
     for (const Light& light : scene.lights)
         lights_center_ += light.center / static_cast<double>(scene.lights.size());
     for (const Light& light : scene.lights)
@@ -97,7 +100,7 @@ TilePlanner::Heights TilePlanner::heights(const Body& quad,
 
 TilePlanner::TileBounds TilePlanner::bounds_of(std::span<const ShadingPoint> points) const
 {
-    TileBounds tile{points[0].x, points[0].x, Vec3<double>(0), 0, 0, {}};
+    TileBounds tile{points[0].x, points[0].x, Vec3<double>(0), 0, 0, 0, {}};
     for (const ShadingPoint& point : points) {
         const Vec3<double> origin = vec_cast<double>(point.ray_origin) + frame_;
         tile.low = min(tile.low, min(point.x, origin));
@@ -107,10 +110,11 @@ TilePlanner::TileBounds TilePlanner::bounds_of(std::span<const ShadingPoint> poi
     const double sum = length(tile.normal);
     tile.normal = sum > 0 ? tile.normal / sum : Vec3<double>(0, 0, 1);
     const Vec3<double> middle = 0.5 * (tile.low + tile.high);
-    tile.lowest = std::numeric_limits<double>::infinity();
+    tile.lowest = std::numeric_limits<double>::infinity(), tile.highest = -tile.lowest;
     for (const ShadingPoint& point : points) {
         tile.spread = std::max(tile.spread, length(vec_cast<double>(point.n) - tile.normal));
-        tile.lowest = std::min(tile.lowest, dot(tile.normal, point.x - middle));
+        const double height = dot(tile.normal, point.x - middle);
+        tile.lowest = std::min(tile.lowest, height), tile.highest = std::max(tile.highest, height);
     }
     for (const Body& body : bodies_) tile.over.push_back(heights(body, points));
     return tile;
@@ -122,8 +126,27 @@ bool TilePlanner::TileBounds::is_below(const Light& light) const
 {
     const Vec3<double> to_center = light.center - 0.5 * (low + high);
     const double reach = length(to_center) + 0.5 * length(high - low);
-    const double highest = dot(normal, to_center) - lowest + spread * reach + light.radius;
-    return highest < -1e-5 * (reach + light.radius);
+    const double most = dot(normal, to_center) - lowest + spread * reach + light.radius;
+    return most < -1e-5 * (reach + light.radius);
+}
+
+/// The same from the other side, of a ball: n·(c − x) ≥ n̄·(c − x) − |n − n̄| |c − x|.
+bool TilePlanner::TileBounds::is_above(const Vec3<double>& center, double radius) const
+{
+    const Vec3<double> to_center = center - 0.5 * (low + high);
+    const double reach = length(to_center) + 0.5 * length(high - low);
+    const double least = dot(normal, to_center) - highest - spread * reach - radius;
+    return least > 1e-5 * (reach + radius);
+}
+
+/// One by one, or of many the ball around them all.
+bool TilePlanner::are_lights_above(const TileBounds& tile) const
+{
+    const Lights& lights = scene_->lights;
+    if (lights.size() > most_light_pairs) return tile.is_above(lights_center_, lights_radius_);
+    return std::all_of(lights.begin(), lights.end(), [&](const Light& light) {
+        return tile.is_above(light.center, light.radius);
+    });
 }
 
 bool TilePlanner::is_unshadowed(const TileBounds& tile, const Shaft& shaft) const
@@ -191,13 +214,17 @@ void TilePlanner::prove_each(const TileBounds& tile, TilePlan& plan) const
 
 TilePlan TilePlanner::plan(std::span<const ShadingPoint> points) const
 {
-    TilePlan plan{effects_.shadows, effects_.light_occlusion, {}, nullptr};
     const TileBounds tile = bounds_of(points);
+    TilePlan plan{effects_.shadows,
+                  effects_.light_occlusion,
+                  effects_.horizon && !are_lights_above(tile),
+                  {},
+                  nullptr};
     if (scene_->lights.size() * std::max<std::size_t>(bodies_.size(), 1) <= most_surface_pairs)
         prove_each(tile, plan);
     else prove_all_at_once(tile, plan);
     if (plan.light_occlusion)
-        plan.blockers = Blockers::of(*hierarchy_, scene_->lights, points, budget_);
+        plan.blockers = Blockers::of(spheres_, scene_->lights, points, budget_);
     return plan;
 }
 

@@ -3,7 +3,9 @@
 #include "mis/effects/blockers.h"
 #include "mis/effects/effects.h"
 #include "mis/effects/shaft.h"
+#include "mis/scene/scene.h"
 #include "mis/scene/shading_point.h"
+#include "mis/trace/lights.h"
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +25,7 @@ enum LightProof : std::uint8_t {
 struct TilePlan {
     bool shadows = true;                       ///< of any light that is not below
     bool light_occlusion = true;               ///< of any light that is not below
+    bool horizon = true;                       ///< some light is not wholly above every point's
     std::vector<std::uint8_t> lights;          ///< [light]: its proofs; empty: none
     std::shared_ptr<const Blockers> blockers;  ///< null: the hierarchy is asked
 };
@@ -32,7 +35,7 @@ struct TilePlan {
 /// must be wider than what float rays may pass beside.
 class TilePlanner {
 public:
-    /// frame: SurfaceTracer::origin(); scene and the hierarchy of its lights: kept by reference.
+    /// frame: SurfaceTracer::origin(); scene: kept by reference. hierarchy: of its lights.
     TilePlanner(const Scene& scene, const LightHierarchy& hierarchy, const Effects& effects,
                 const Vec3<double>& frame);
 
@@ -60,14 +63,15 @@ private:
     Heights heights(const Body& quad, std::span<const ShadingPoint> points) const;
     bool is_unshadowed(const TileBounds& tile, const Shaft& shaft) const;
     bool is_unhidden(const Shaft& shaft, std::size_t light) const;
+    bool are_lights_above(const TileBounds& tile) const;
     void prove_all_at_once(const TileBounds& tile, TilePlan& plan) const;
     void prove_each(const TileBounds& tile, TilePlan& plan) const;
 
     const Scene* scene_;
-    const LightHierarchy* hierarchy_;
     Effects effects_;
     Vec3<double> frame_;
     std::shared_ptr<ListBudget> budget_ = std::make_shared<ListBudget>(Blockers::most_bytes);
+    std::shared_ptr<const FloatSpheres> spheres_;  ///< null where there are too many lights
     std::vector<Body> bodies_;
     Vec3<double> lights_center_{0};
     double lights_radius_ = 0;

@@ -23,7 +23,7 @@ bool is_unhidden(const LitScene& scene, const TilePlan& plan)
         const auto proofs = plan.lights.empty() ? 0 : plan.lights[static_cast<std::size_t>(j)];
         if ((proofs & (below | unhidden)) != 0) continue;
         const auto others = plan.blockers->before(j);
-        if (!others || !others->empty()) return false;
+        if (!others || others->beams() != 0) return false;
     }
     return true;
 }

@@ -156,15 +156,4 @@ void plan_tiles(GBuffer& buffer, const TilePlanner& planner, const AnyExecutor& 
     });
 }
 
-EffectShares effect_shares(const GBuffer& buffer)
-{
-    EffectShares shares{0, 0};
-    for (const Tile& tile : buffer.tiles) {
-        shares.shadows += tile.plan.shadows ? 1 : 0;
-        shares.light_occlusion += tile.plan.light_occlusion ? 1 : 0;
-    }
-    const double tiles = static_cast<double>(std::max<std::size_t>(buffer.tiles.size(), 1));
-    return {shares.shadows / tiles, shares.light_occlusion / tiles};
-}
-
 }  // namespace mis

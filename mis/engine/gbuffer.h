@@ -50,9 +50,6 @@ GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights,
 /// Finds out what each tile calls for, and leaves it there.
 void plan_tiles(GBuffer& buffer, const TilePlanner& planner, const AnyExecutor& executor);
 
-/// Of a buffer's tiles, how many call for an effect; 0 where there is no tile.
-EffectShares effect_shares(const GBuffer& buffer);
-
 /// The probes, each a tile of its own.
 GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
                      const SurfaceTracer* surfaces);

@@ -8,6 +8,7 @@
 #include "mis/engine/stages_light.h"
 #include "mis/engine/stages_numbers.h"
 #include "mis/engine/stages_screen.h"
+#include "mis/engine/stages_sums.h"
 #include "mis/heuristic/registry.h"
 #include "mis/policy/registry.h"
 #include "mis/technique/registry.h"
@@ -44,20 +45,41 @@ using TableOf = decltype(std::declval<const Policy&>().template prepare<V>(
     std::declval<const ChoicePoint<T>&>(), std::declval<const LightColumns<T>&>(),
     std::declval<Scratch&>()));
 
+/// A point of the batch as policies see it.
+template <class T>
+ChoicePoint<T> choice_point(const TileJob<T>& job, const Batch<T>& batch, std::size_t p)
+{
+    const ShadingPoint& point = job.points[batch.tile_point[p]];
+    const Vec3<T> n = vec_cast<T>(point.n);
+    return {vec_cast<T>(point.x - job.origin), n, frame_around(n).to_local(vec_cast<T>(point.wo)),
+            AnyBsdf{job.bsdf, job.bsdf_type}, job.origin};
+}
+
 /// Leaves a policy's table for each point of the batch from `first` on.
 template <class V, class Policy, class T>
 void prepare_tables(const TileJob<T>& job, Batch<T>& batch, std::size_t first, Scratch& scratch)
 {
-    const Policy& policy = *static_cast<const Policy*>(job.policy);
-    for (std::size_t p = first; p < batch.points; ++p) {
-        const ShadingPoint& point = job.points[batch.tile_point[p]];
-        const Vec3<T> n = vec_cast<T>(point.n);
-        const ChoicePoint<T> seen{vec_cast<T>(point.x - job.origin), n,
-                                  frame_around(n).to_local(vec_cast<T>(point.wo)),
-                                  AnyBsdf{job.bsdf, job.bsdf_type}, job.origin};
-        ::new (&batch.tables[p])
-            TableOf<Policy, V, T>(policy.template prepare<V>(seen, job.columns, scratch));
+    using Table = TableOf<Policy, V, T>;
+    const auto place = [&](std::size_t p) { return reinterpret_cast<Table*>(&batch.tables[p]); };
+    if constexpr (requires { Table::most_kept; }) {
+        // Of many lights some at a time for all points, so that memory is read once.
+        if (job.columns.count > Table::most_kept) {
+            constexpr std::size_t step = 64;
+            const std::size_t blocks = Table::blocks_of(job.columns.count);
+            for (std::size_t p = first; p < batch.points; ++p)
+                ::new (place(p))
+                    Table(Table::begin(choice_point(job, batch, p), job.columns, scratch));
+            for (std::size_t b = 0; b < blocks; b += step)
+                for (std::size_t p = first; p < batch.points; ++p)
+                    place(p)->fill_more(b, std::min(b + step, blocks));
+            for (std::size_t p = first; p < batch.points; ++p) place(p)->end(job.columns);
+            return;
+        }
     }
+    const Policy& policy = *static_cast<const Policy*>(job.policy);
+    for (std::size_t p = first; p < batch.points; ++p)
+        ::new (place(p))
+            Table(policy.template prepare<V>(choice_point(job, batch, p), job.columns, scratch));
 }
 
 template <class T> void fill_kernels(Kernels<T>& kernels)
@@ -72,13 +94,16 @@ template <class T> void fill_kernels(Kernels<T>& kernels)
     kernels.screen_meeting = screen_meeting<V, T>;
     kernels.screen_hiding = screen_hiding<V, T>;
     kernels.weigh_alone = weigh_alone<V, T>;
+    kernels.sums = {SumStages<T>{add_contributions<1, T>, find_luminances<1, T>, sum_run<1, T>},
+                    SumStages<T>{add_contributions<3, T>, find_luminances<3, T>, sum_run<3, T>}};
     for_each_type(Policies{}, [&]<class P>() {
         using Table = TableOf<P, V, T>;
         kernels.policies.push_back({P::name, P::draws_every_light, P::reads_all_lights,
                                     [](std::size_t lights) { return P::table_bytes(lights); },
-                                    prepare_tables<V, P, T>, choose_light<P, Table, T>,
-                                    price_light<Table, T>, sum_light_draw<Table, T>,
-                                    sum_bsdf_draw<Table, T>});
+                                    prepare_tables<V, P, T>,
+                                    choose_light<instruction_set::Lanes<double>, P, Table, T>,
+                                    choose_only_light<P, Table, T>, price_light<Table, T>,
+                                    sum_light_draw<Table, T>, sum_bsdf_draw<Table, T>});
     });
     for_each_type(Techniques{}, [&]<class K>() {
         if constexpr (K::chooses_light)
@@ -92,7 +117,11 @@ template <class T> void fill_kernels(Kernels<T>& kernels)
             });
     });
     for_each_type(Bsdfs{}, [&]<class B>() {
-        kernels.bsdfs.push_back({B::name, evaluate_bsdf<V, FormulaOf<B>, T>});
+        using F = FormulaOf<B>;
+        kernels.bsdfs.push_back(
+            {B::name,
+             {{{evaluate_bsdf<V, F, false, false, T>, evaluate_bsdf<V, F, false, true, T>},
+               {evaluate_bsdf<V, F, true, false, T>, evaluate_bsdf<V, F, true, true, T>}}}});
     });
     for_each_type(Heuristics{}, [&]<class H>() {
         kernels.heuristics.push_back({H::name, weigh_light<V, H, T>, weigh_bsdf<V, H, T>});

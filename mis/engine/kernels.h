@@ -1,9 +1,11 @@
 #pragma once
 
 #include "mis/engine/job.h"
+#include "mis/math/moments.h"
 #include "mis/scene/material.h"
 #include "mis/strategy/strategy.h"
 
+#include <array>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,7 @@ template <class T> struct PolicyStages {
     std::size_t (*table_bytes)(std::size_t lights);
     PrepareStage<T> prepare;
     Stage<T> choose;       ///< bits → light, probability
+    Stage<T> choose_only;  ///< the same where there is one light
     Stage<T> probability;  ///< light → probability
     Stage<T> sum_light_draw,
         sum_bsdf_draw;  ///< of the union: all lights along wi → light_pdf, radiance, distance
@@ -31,7 +34,8 @@ template <class T> struct LightTechniqueStages {
 
 template <class T> struct BsdfStages {
     std::string_view name;
-    Stage<T> evaluate;  ///< wi → contribution (f cos θ), bsdf_pdf
+    /// wi → contribution (f cos θ), bsdf_pdf: [has a lobe][some wi may be below the horizon]
+    std::array<std::array<Stage<T>, 2>, 2> evaluate;
 };
 
 /// A draw over the hemisphere by one BSDF under one direction technique.
@@ -46,6 +50,23 @@ template <class T> struct HeuristicStages {
     Stage<T> weigh_light, weigh_bsdf;  ///< contribution: f cos θ → share of the estimate
 };
 
+/// What some samples of one point come to.
+struct RunSums {
+    Moments luminance;      ///< of the observations
+    Vec3<double> radiance;  ///< sum over them and those before
+};
+
+/// How the samples of a batch add up.
+template <class T> struct SumStages {
+    Stage<T> add = nullptr;  ///< value += contribution
+    /// All values of a batch → luminances.
+    void (*find_luminances)(const Batch<T>&, Column<double>&) = nullptr;
+    /// Samples [first, end) and what was observed of them → moments of these, and `before` with a
+    /// share of all radiances.
+    RunSums (*sum_run)(const Batch<T>&, int first, int end, std::span<const double> observed,
+                       double share, const Vec3<double>& before) = nullptr;
+};
+
 /// All stages for one number type and instruction set.
 template <class T> struct Kernels {
     std::string_view instruction_set;
@@ -55,7 +76,8 @@ template <class T> struct Kernels {
     Stage<T> screen_meeting;  ///< wi → candidate: could wi meet any light?
     Stage<T>
         screen_hiding;  ///< wi, light, distance → candidate: could another light stand before it?
-    Stage<T> weigh_alone;  ///< contribution = f cos θ · L/pdf
+    Stage<T> weigh_alone;              ///< contribution = f cos θ · L/pdf
+    std::array<SumStages<T>, 2> sums;  ///< of grey, where the first channel is all; of colours
     std::vector<PolicyStages<T>> policies;
     std::vector<LightTechniqueStages<T>> light_techniques;
     std::vector<BsdfStages<T>> bsdfs;

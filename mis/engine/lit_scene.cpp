@@ -3,19 +3,48 @@
 #include "mis/engine/choices.h"
 #include "mis/strategy/names.h"
 
+#include <algorithm>
+
 namespace mis {
 
 LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects)
     : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights),
       planner_(scene, hierarchy_, effects,
-               surfaces != nullptr ? surfaces->origin() : Vec3<double>(0))
+               surfaces != nullptr ? surfaces->origin() : Vec3<double>(0)),
+      has_grey_lights_(are_grey(scene.lights))
 {
     for (const Material& material : scene.materials) bsdfs_.push_back(make_bsdf(material));
 }
 
+Effects LitScene::effects(int material) const
+{
+    Effects effects = effects_;
+    if (!effects.by_tile) return effects;
+    effects.specular = effects.specular && !is_diffuse(bsdf(material));
+    effects.colour =
+        effects.colour &&
+        !(has_grey_lights_ && is_grey(scene_->materials[static_cast<std::size_t>(material)]));
+    return effects;
+}
+
+EffectShares LitScene::tiles_that_call(const GBuffer& buffer) const
+{
+    EffectShares counts;
+    const auto one = [](bool is_on) { return is_on ? 1.0 : 0.0; };
+    for (const Tile& tile : buffer.tiles) {
+        const Effects on = effects(tile.material);
+        counts.add({one(tile.plan.shadows && on.shadows),
+                    one(tile.plan.light_occlusion && on.light_occlusion),
+                    one(tile.plan.horizon && on.horizon), one(on.specular), one(on.choice),
+                    one(on.colour)});
+    }
+    return counts;
+}
+
 template <class T>
 ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
-                                const Kernels<T>& kernels, NumberSource numbers)
+                                const Kernels<T>& kernels, NumberSource numbers,
+                                const Effects& also)
     : scene_(&scene), strategy_(strategy)
 {
     const Lights& lights = scene.scene().lights;
@@ -25,15 +54,20 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
     } else if (strategy.chooses_light()) {
         policy_ = make_policy(strategy.policy, lights);
     }
-    for (const Material& material : scene.scene().materials) {
-        pipelines_.emplace_back();
-        for (const bool shadows : {false, true})
-            for (const bool light_occlusion : {false, true}) {
-                Effects effects = scene.effects();
-                effects.shadows &= shadows, effects.light_occlusion &= light_occlusion;
-                pipelines_.back()[shadows][light_occlusion] =
-                    compose(kernels, strategy, material.type, effects, numbers);
-            }
+    const std::vector<Material>& materials = scene.scene().materials;
+    pipelines_.resize(materials.size());
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        Effects whole = scene.effects(static_cast<int>(m));
+        whole.specular |= also.specular, whole.choice |= also.choice, whole.colour |= also.colour;
+        for (const int k : {0, 1, 2, 3, 4, 5, 6, 7}) {
+            const bool shadows = (k & 4) != 0, light_occlusion = (k & 2) != 0,
+                       horizon = (k & 1) != 0;
+            Effects effects = whole;
+            effects.shadows &= shadows, effects.light_occlusion &= light_occlusion;
+            effects.horizon &= horizon;
+            pipelines_[m][shadows][light_occlusion][horizon] =
+                compose(kernels, strategy, materials[m].type, effects, numbers);
+        }
     }
     common_.lights = &lights;
     common_.order = order_.get();

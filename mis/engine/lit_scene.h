@@ -35,6 +35,10 @@ public:
     {
         if (effects_.by_tile) plan_tiles(buffer, planner_, executor);
     }
+    /// What is simulated on surfaces of a material.
+    Effects effects(int material) const;
+    /// How many of a buffer's tiles call for an effect.
+    EffectShares tiles_that_call(const GBuffer& buffer) const;
     /// A view of a material's BSDF.
     AnyBsdf bsdf(int material) const
     {
@@ -49,6 +53,7 @@ private:
     LightHierarchy hierarchy_;
     TilePlanner planner_;
     std::vector<std::shared_ptr<const void>> bsdfs_;
+    bool has_grey_lights_;
 };
 
 /// One strategy made ready on a scene: its policy's tables, and pipelines for each material, from
@@ -56,9 +61,10 @@ private:
 template <class T> class ReadyStrategy {
 public:
     /// strategy: checked (strategy/strategy.h). kernels: kernels<T>(). Keeps references to scene
-    /// and kernels.
+    /// and kernels. also: effects that no scene, tile or material has left out, whatever it calls
+    /// for.
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
-                  NumberSource numbers);
+                  NumberSource numbers, const Effects& also = no_effects);
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
@@ -75,15 +81,16 @@ public:
 private:
     const Pipeline<T>& pipeline(int material, const TilePlan& plan) const
     {
-        return pipelines_[static_cast<std::size_t>(material)][plan.shadows][plan.light_occlusion];
+        return pipelines_[static_cast<std::size_t>(material)][plan.shadows][plan.light_occlusion]
+                         [plan.horizon];
     }
 
     const LitScene* scene_;
     Strategy strategy_;
     std::shared_ptr<const LightOrder> order_;  ///< of Sobol' numbers; else the scene's
     std::shared_ptr<const void> policy_;
-    /// [material][with shadows][with light occlusion]
-    std::vector<std::array<std::array<Pipeline<T>, 2>, 2>> pipelines_;
+    /// [material][with shadows][with light occlusion][with a horizon]
+    std::vector<std::array<std::array<std::array<Pipeline<T>, 2>, 2>, 2>> pipelines_;
     TileJob<T> common_;
 };
 

@@ -27,6 +27,12 @@ const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view 
                              std::string(bsdf));
 }
 
+template <class T>
+Stage<T> evaluation(const Kernels<T>& kernels, std::string_view bsdf, const Effects& effects)
+{
+    return named(kernels.bsdfs, bsdf).evaluate[effects.specular][effects.horizon];
+}
+
 template <class T> void add_surfaces(std::vector<NamedStage<T>>& stages, const Effects& effects)
 {
     if (effects.shadows) stages.push_back({StageKind::rays, hide_by_surfaces<T>});
@@ -42,11 +48,11 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_light_rows<T>});
     stages.push_back({StageKind::numbers, numbers});
-    stages.push_back({StageKind::choose, policy.choose});
+    stages.push_back({StageKind::choose, effects.choice ? policy.choose : policy.choose_only});
     stages.push_back({StageKind::draw, technique.draw});
     if (technique.sums_lights && effects.light_occlusion)
         stages.push_back({StageKind::meet, policy.sum_light_draw});
-    stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
+    stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
     stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_light});
     // The cheaper question first: what one answer hides, the other is not asked about.
     const bool is_screened = effects.lights <= most_screened_lights;
@@ -56,7 +62,7 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
         stages.push_back({StageKind::light_occlusion, hide_by_lights<T>});
     }
     if (is_screened) add_surfaces(stages, effects);
-    stages.push_back({StageKind::add, add_contributions<T>});
+    stages.push_back({StageKind::add, kernels.sums[effects.colour].add});
     return stages;
 }
 
@@ -79,10 +85,10 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
     stages.push_back({StageKind::draw, technique.pdf});
     if (technique.sums_lights && effects.light_occlusion)
         stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
-    stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
+    stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
     stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_bsdf});
     add_surfaces(stages, effects);
-    stages.push_back({StageKind::add, add_contributions<T>});
+    stages.push_back({StageKind::add, kernels.sums[effects.colour].add});
     return stages;
 }
 
@@ -100,11 +106,11 @@ std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Stra
         stages.push_back({StageKind::meet, kernels.screen_meeting});
     stages.push_back({StageKind::meet, meet_lights<T>});
     stages.push_back({StageKind::draw, fetch_radiance<T>});
-    stages.push_back({StageKind::bsdf, named(kernels.bsdfs, bsdf).evaluate});
+    stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
     stages.push_back({StageKind::bsdf, draw.pdf});
     stages.push_back({StageKind::weigh, kernels.weigh_alone});
     add_surfaces(stages, effects);
-    stages.push_back({StageKind::add, add_contributions<T>});
+    stages.push_back({StageKind::add, kernels.sums[effects.colour].add});
     return stages;
 }
 
@@ -119,6 +125,8 @@ Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_vi
     const Stage<T> bsdf_numbers =
         numbers.is_sobol() ? kernels.sobol_bsdf_numbers : kernels.bsdf_numbers;
     Pipeline<T> pipeline;
+    pipeline.colour = effects.colour;
+    pipeline.sums = kernels.sums[effects.colour];
     if (!s.chooses_light()) {
         pipeline.bsdf = direction_alone(kernels, s, bsdf, effects, bsdf_numbers);
         pipeline.bsdf_draws = 1;

@@ -41,6 +41,8 @@ template <class T> struct Pipeline {
     bool reads_all_lights = false;
     std::size_t table_bytes = 0;             ///< of one point
     std::vector<NamedStage<T>> light, bsdf;  ///< one draw of each half
+    SumStages<T> sums;
+    bool colour = true;  ///< else the first channel of a sample's value is all three
     int light_draws = 0,
         bsdf_draws = 0;  ///< per sample; for each light, where the policy draws them all
 };

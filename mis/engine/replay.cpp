@@ -74,7 +74,8 @@ Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Til
     for (std::uint32_t draw = 0; draw < light_draws; ++draw) run_half(pipeline.light, true, draw);
     for (int draw = 0; draw < pipeline.bsdf_draws; ++draw)
         run_half(pipeline.bsdf, false, static_cast<std::uint32_t>(draw));
-    found.value = batch->value.at(0);
+    const Vec3<double> value = batch->value.at(0);
+    found.value = pipeline.colour ? value : Vec3<double>(value.x);
     return found;
 }
 

@@ -7,8 +7,19 @@ inline namespace MIS_ISA {
 
 // The BSDF: evaluated for both halves, drawn from in its own.
 
-/// wi → contribution (f cos θ) and bsdf_pdf; both 0 below the horizon.
-template <class V, class B, class T> void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
+/// With its lobe, or without one where its type can lack it.
+template <bool lobe, class B, class V>
+MIS_INLINE BsdfValue<V> value_of(const B& bsdf, const Vec3<V>& wo, const Vec3<V>& wi)
+{
+    if constexpr (!lobe && requires { bsdf.evaluate_diffuse(wi); })
+        return bsdf.evaluate_diffuse(wi);
+    else return bsdf.evaluate(wo, wi);
+}
+
+/// wi → contribution (f cos θ) and bsdf_pdf; both 0 below the horizon. With a lobe, or what is
+/// left where a BSDF has none; with a horizon, or where no wi is below it.
+template <class V, class B, bool lobe, bool horizon, class T>
+void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
 {
     const B& bsdf = *static_cast<const B*>(job.bsdf);
     const V zero = number<V>(0);
@@ -16,13 +27,17 @@ template <class V, class B, class T> void evaluate_bsdf(const TileJob<T>& job, B
         const Frame<V> frame = frame_around(batch.n.template get<V>(row));
         Vec3<V> wi = frame.to_local(batch.wi.template get<V>(row));
         const auto above = wi.z > zero;
-        wi.z = select(above, wi.z, number<V>(1));
-        const BsdfValue<V> value = bsdf.evaluate(batch.wo.template get<V>(row), wi);
-        const Vec3<V> f_cos = value.f * wi.z;
-        batch.contribution.set(row,
-                               Vec3<V>(select(above, f_cos.x, zero), select(above, f_cos.y, zero),
-                                       select(above, f_cos.z, zero)));
-        set_lanes(batch.bsdf_pdf, row, V(select(above, value.pdf, zero)));
+        if constexpr (horizon) wi.z = select(above, wi.z, number<V>(1));
+        const BsdfValue<V> value = value_of<lobe>(bsdf, batch.wo.template get<V>(row), wi);
+        Vec3<V> f_cos = value.f * wi.z;
+        V pdf = value.pdf;
+        if constexpr (horizon) {
+            f_cos = {select(above, f_cos.x, zero), select(above, f_cos.y, zero),
+                     select(above, f_cos.z, zero)};
+            pdf = select(above, pdf, zero);
+        }
+        batch.contribution.set(row, f_cos);
+        set_lanes(batch.bsdf_pdf, row, pdf);
     });
 }
 

@@ -17,17 +17,20 @@ template <class T> MIS_INLINE void fetch_ahead(const TileJob<T>& job, LightIndex
     __builtin_prefetch(record + sizeof(Light) - 1);  // it may begin near the end of a line
 }
 
-/// bits → light, probability. Reads the tables that prepare left.
-template <class Policy, class Table, class T>
+/// bits → light, probability. Reads the tables that prepare left. L: lanes of double.
+template <class L, class Policy, class Table, class T>
 void choose_light(const TileJob<T>& job, Batch<T>& batch)
 {
     const auto rows = static_cast<std::size_t>(batch.rows);
-    const auto put = [&](std::size_t i, const Choice& choice) {
+    const bool is_far = job.lights->size() > 256;  // else records are in the first-level cache
+    const auto put = [&](std::size_t i, const Choice& choice) __attribute__((always_inline))
+    {
         batch.light[i] = job.light_at(choice.light);
         batch.probability[i] = static_cast<T>(choice.probability);
-        if (choice.light >= 0) fetch_ahead(job, batch.light[i]);
+        if (is_far && choice.light >= 0) fetch_ahead(job, batch.light[i]);
     };
-    const auto table = [&](std::size_t i) -> const Table& {
+    const auto table = [&](std::size_t i) __attribute__((always_inline))->const Table&
+    {
         return table_of<Table>(batch, batch.point[i]);
     };
     if constexpr (Policy::draws_every_light) {
@@ -36,9 +39,37 @@ void choose_light(const TileJob<T>& job, Batch<T>& batch)
         std::fill_n(batch.probability.begin(), rows, T(1));
     } else if constexpr (requires { Policy::draws_go_together; }) {
         Table::template choose_each<batch_capacity>(std::span(batch.bits).first(rows), table, put);
+    } else if constexpr (requires(const Table& t) {
+                             t.template choose_many<L>(std::span<const std::uint64_t>{}, put);
+                         }) {
+        for_each_run(
+            batch, [&](int first, int end) __attribute__((always_inline)) {
+                const auto begin = static_cast<std::size_t>(first);
+                table(begin).template choose_many<L>(
+                    std::span<const std::uint64_t>(batch.bits)
+                        .subspan(begin, static_cast<std::size_t>(end - first)),
+                    [&](std::size_t i, const Choice& choice)
+                        __attribute__((always_inline)) { put(begin + i, choice); });
+            });
     } else {
         for (std::size_t i = 0; i < rows; ++i) put(i, table(i).choose(batch.bits[i]));
     }
+}
+
+/// choose_light where there is one light, which no bits change.
+template <class Policy, class Table, class T>
+void choose_only_light(const TileJob<T>&, Batch<T>& batch)
+{
+    for_each_run(
+        batch, [&](int first, int end) __attribute__((always_inline)) {
+            Choice choice{0, 1};
+            if constexpr (!Policy::draws_every_light)
+                choice =
+                    table_of<Table>(batch, batch.point[static_cast<std::size_t>(first)]).choose(0);
+            const auto probability = static_cast<T>(choice.probability);
+            for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(end); ++i)
+                batch.light[i] = choice.light, batch.probability[i] = probability;
+        });
 }
 
 /// light → probability: for a light that another technique met.
@@ -55,22 +86,32 @@ template <class Table, class T> void price_light(const TileJob<T>& job, Batch<T>
 /// in double until the difference is taken. A row without a light gets a black one.
 template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
 {
-    const auto padded = static_cast<int>((batch.rows + 15) / 16 * 16);
-    for (int row = 0; row < padded; ++row) {
+    const auto leave_black = [&](int row) {
         const auto i = static_cast<std::size_t>(row);
-        if (row >= batch.rows || batch.light[i] < 0) {
-            batch.to_center.put(row, {0, 0, 1});
-            batch.radius[i] = T(0.5), batch.gap2[i] = T(0.75), batch.probability[i] = 0;
-            batch.radiance.put(row, Vec3<T>(T(0)));
-            if (row >= batch.rows) batch.n.put(row, {0, 0, 1}), batch.wo.put(row, {0, 0, 1});
-            continue;
-        }
-        const Light& light = (*job.lights)[static_cast<std::size_t>(batch.light[i])];
-        const Vec3<double> to_center = light.center - shading_point(job, batch, row).x;
-        batch.to_center.put(row, vec_cast<T>(to_center));
-        batch.radius[i] = static_cast<T>(light.radius);
-        batch.gap2[i] = static_cast<T>(length2(to_center) - light.radius * light.radius);
-        batch.radiance.put(row, vec_cast<T>(light.radiance_radius));
+        batch.to_center.put(row, {0, 0, 1});
+        batch.radius[i] = T(0.5), batch.gap2[i] = T(0.75), batch.probability[i] = 0;
+        batch.radiance.put(row, Vec3<T>(T(0)));
+    };
+    for_each_run(
+        batch, [&](int first, int end) __attribute__((always_inline)) {
+            const Vec3<double> x = shading_point(job, batch, first).x;
+            for (int row = first; row < end; ++row) {
+                const auto i = static_cast<std::size_t>(row);
+                if (batch.light[i] < 0) {
+                    leave_black(row);
+                    continue;
+                }
+                const Light& light = (*job.lights)[static_cast<std::size_t>(batch.light[i])];
+                const Vec3<double> to_center = light.center - x;
+                batch.to_center.put(row, vec_cast<T>(to_center));
+                batch.radius[i] = static_cast<T>(light.radius);
+                batch.gap2[i] = static_cast<T>(length2(to_center) - light.radius * light.radius);
+                batch.radiance.put(row, vec_cast<T>(light.radiance_radius));
+            }
+        });
+    for (int row = batch.rows; row < (batch.rows + 15) / 16 * 16; ++row) {
+        leave_black(row);
+        batch.n.put(row, {0, 0, 1}), batch.wo.put(row, {0, 0, 1});
     }
 }
 
@@ -101,8 +142,8 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
         // 1/pdf = sin² · inverse_pdf_sin2, taken one sine at a time: the square of a tiny radius is
         // no normal number.
         const V inverse_pdf_sin = cap.sin_max * draw.inverse_pdf_sin2;
-        batch.radiance.set(
-            row, Vec3<V>(batch.radiance.template get<V>(row) / cap.distance * inverse_pdf_sin));
+        batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) * cap.inverse_distance *
+                                        inverse_pdf_sin));
     });
 }
 
@@ -117,7 +158,8 @@ void pdf_of_light(const TileJob<T>& job, Batch<T>& batch)
         const Vec3<V> n = batch.n.template get<V>(row), wi = batch.wi.template get<V>(row);
         set_lanes(batch.light_pdf, row,
                   V(lanes_of<V>(batch.probability, row) * Technique::pdf(cap, n, V(dot(n, wi)))));
-        batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) / cap.radius));
+        const V inverse_radius = number<V>(1) / cap.radius;
+        batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) * inverse_radius));
     });
 }
 

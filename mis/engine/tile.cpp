@@ -4,6 +4,7 @@
 #include "mis/engine/stopwatch.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace mis {
 
@@ -24,6 +25,13 @@ namespace {
 /// point always fits.
 constexpr std::size_t scratch_bytes = std::size_t{1} << 20;
 
+/// Large tables, of so many lights that these fit no cache, are made of some points together.
+std::size_t scratch_bytes_for(std::size_t table_bytes)
+{
+    constexpr std::size_t together = 8, most = std::size_t{8} << 20;
+    return std::max({scratch_bytes, table_bytes, std::min(together * table_bytes, most)});
+}
+
 }  // namespace
 
 /// One run over a tile: fills batches with the samples of its points, in order, and takes their
@@ -39,32 +47,44 @@ template <class T> struct Workspace<T>::Run {
     Scratch& scratch;
     Column<double>& luminances;
     std::array<std::uint64_t, stage_names.size()> stage_ticks{};
+    std::size_t prepared = 0;    ///< points of the batch that have their table
     Spread chunk;                ///< of the point and chunk at hand
     double observation_sum = 0;  ///< over the samples so far of the observation at hand
 
     void all()
     {
         for (std::size_t p = 0; p < job.points.size(); ++p) {
-            if (scratch.left() < pipeline.table_bytes) flush();
+            if (scratch.left() < (batch.points - prepared + 1) * pipeline.table_bytes) flush();
             if (batch.samples == 0) clear_points();
             add_point(p);
-            for (int s = 0; s < range.samples(); ++s) {
+            for (int s = 0; s < range.samples();) {
                 if (batch.samples == batch_capacity) {
                     flush();
                     keep_last_point();
                 }
-                const auto slot = static_cast<std::size_t>(batch.samples++);
-                batch.sample_point[slot] = static_cast<std::int32_t>(batch.points - 1);
-                batch.sample_number[slot] = range.first + static_cast<std::uint64_t>(s);
+                s += add_samples(s);
             }
             if (batch.samples == batch_capacity) flush();
         }
         flush();
     }
 
+    /// Of the last point, from its sample s on, as many as there is room for: how many that is.
+    int add_samples(int s)
+    {
+        const int count = std::min(batch_capacity - batch.samples, range.samples() - s);
+        const auto slot = static_cast<std::ptrdiff_t>(batch.samples);
+        std::fill_n(batch.sample_point.begin() + slot, count,
+                    static_cast<std::int32_t>(batch.points - 1));
+        std::iota(batch.sample_number.begin() + slot, batch.sample_number.begin() + slot + count,
+                  range.first + static_cast<std::uint64_t>(s));
+        batch.samples += count;
+        return count;
+    }
+
     void clear_points()
     {
-        batch.points = 0;
+        batch.points = prepared = 0;
         scratch.clear();
     }
 
@@ -72,9 +92,15 @@ template <class T> struct Workspace<T>::Run {
     {
         const std::size_t slot = batch.points++;
         batch.tile_point[slot] = static_cast<std::uint32_t>(p);
+    }
+
+    /// Tables for the points that have none.
+    void prepare_points()
+    {
         if (pipeline.prepare == nullptr) return;
         const std::uint64_t start = ticks();
-        pipeline.prepare(job, batch, slot, scratch);
+        pipeline.prepare(job, batch, prepared, scratch);
+        prepared = batch.points;
         stage_ticks[static_cast<std::size_t>(StageKind::prepare)] += ticks() - start;
     }
 
@@ -83,7 +109,7 @@ template <class T> struct Workspace<T>::Run {
     {
         batch.tables[0] = batch.tables[batch.points - 1];
         batch.tile_point[0] = batch.tile_point[batch.points - 1];
-        batch.points = 1;
+        batch.points = prepared = 1;
     }
 
     void flush()
@@ -92,6 +118,7 @@ template <class T> struct Workspace<T>::Run {
             clear_points();
             return;
         }
+        prepare_points();
         std::fill_n(batch.value.x.begin(), batch.samples, 0.0);
         std::fill_n(batch.value.y.begin(), batch.samples, 0.0);
         std::fill_n(batch.value.z.begin(), batch.samples, 0.0);
@@ -128,8 +155,7 @@ template <class T> struct Workspace<T>::Run {
     /// The values of the batch → moments, one run of samples of a point after the other.
     void take_in()
     {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.samples); ++i)
-            luminances[i] = luminance(batch.value.at(static_cast<int>(i)));
+        pipeline.sums.find_luminances(batch, luminances);
         const double share = 1.0 / range.samples_per_observation;
         for (std::size_t first = 0; first < static_cast<std::size_t>(batch.samples);) {
             const std::int32_t slot = batch.sample_point[first];
@@ -138,11 +164,11 @@ template <class T> struct Workspace<T>::Run {
                 ++end;
             const std::size_t point = batch.tile_point[static_cast<std::size_t>(slot)];
             const std::span<const double> observed = observations(first, end);
-            results[point].luminance.merge(Moments::of(observed));
-            Vec3<double> sum = results[point].radiance_sum;  // not through memory, sample by sample
-            for (std::size_t i = first; i < end; ++i)
-                sum += share * batch.value.at(static_cast<int>(i));
-            results[point].radiance_sum = sum;
+            const RunSums sums =
+                pipeline.sums.sum_run(batch, static_cast<int>(first), static_cast<int>(end),
+                                      observed, share, results[point].radiance_sum);
+            results[point].luminance.merge(sums.luminance);
+            results[point].radiance_sum = sums.radiance;
             if (!totals.empty()) add_to_chunks(point, first, observed);
             first = end;
         }
@@ -198,8 +224,8 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
 {
     const double start = thread_seconds();
     const std::uint64_t start_ticks = ticks();
-    if (!scratch_ || scratch_->size() < pipeline.table_bytes)
-        scratch_ = std::make_unique<Scratch>(std::max(scratch_bytes, pipeline.table_bytes));
+    if (!scratch_ || scratch_->size() < scratch_bytes_for(pipeline.table_bytes))
+        scratch_ = std::make_unique<Scratch>(scratch_bytes_for(pipeline.table_bytes));
     if (pipeline.reads_all_lights || job.lights->size() <= most_screened_lights)
         job.columns = fill_light_columns(*job.lights, job.origin, columns_, job.order);
     batch_->samples = 0;

@@ -61,7 +61,7 @@ TEST(InvalidSamples, AreNamed)
     }
     batch->contribution.put(1, Vec3<float>(std::numeric_limits<float>::quiet_NaN()));
     batch->contribution.put(2, Vec3<float>(std::numeric_limits<float>::infinity()));
-    add_contributions(job, *batch);
+    kernels<float>().sums[1].add(job, *batch);
     EXPECT_EQ(batch->invalid, 2U);
     EXPECT_EQ(batch->first_invalid.point, 47U);
     EXPECT_EQ(batch->first_invalid.sample, 501U);

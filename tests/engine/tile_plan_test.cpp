@@ -37,6 +37,23 @@ Ball grazing_ball(const Vec3<double>& from, const Light& light, Uniforms& unifor
     return {from + way + out * (radius - reach), radius};
 }
 
+/// Of each kind that leaves something out, and of each that does not: with and without a lobe, a
+/// black one, and colours.
+Material random_material(Uniforms& uniforms)
+{
+    const auto rgb = [&] {
+        const double grey = uniforms.between(0.1, 0.9);
+        return uniforms() < 0.5 ? Vec3<double>(grey) : Vec3<double>(grey, 0.5, 0.3);
+    };
+    Material material = grey_floor();
+    material.diffuse = rgb();
+    const double kind = uniforms();
+    if (kind < 0.5) return material;
+    material.type = "blinn", material.exponent = 20;
+    if (kind < 0.75) material.specular = rgb();
+    return material;
+}
+
 /// A small piece of floor or ball, seen from near by, under a few lights, among surfaces that
 /// touch, graze, hold or hide them.
 Scene random_scene(Uniforms& uniforms)
@@ -47,7 +64,8 @@ Scene random_scene(Uniforms& uniforms)
                           .target = {0, 0, 0},
                           .vertical_fov_degrees = 10 * size,
                           .resolution = {8, 8}};
-    scene.materials = {grey_floor()};
+    scene.materials = {random_material(uniforms)};
+    const bool is_coloured = uniforms() < 0.3;
     if (uniforms() < 0.8)
         scene.surfaces.push_back(
             {Quad{{-9, 0, -9}, {Vec3<double>{0, 0, 18}, Vec3<double>{18, 0, 0}}}, 0});
@@ -64,6 +82,7 @@ Scene random_scene(Uniforms& uniforms)
             const Ball ball = grazing_ball({0, 0, 0}, scene.lights.back(), uniforms);
             light = make_light(ball.center, ball.radius, Vec3<double>(1));
         }
+        if (is_coloured) light.radiance_radius.y *= 0.5F;
         scene.lights.push_back(light);
     }
     for (int k = uniforms.below(4); k > 0; --k) {
@@ -112,6 +131,7 @@ TilePlan plan_of_a_shaft_too_small(const LitScene& lit, const Vec3<double>& fram
 struct Tally {
     int tiles = 0, differ = 0, leaner = 0;
     int proved_shadows = 0, proved_lights = 0, below_all = 0;
+    EffectShares called_for;  ///< sums over scenes
 };
 
 constexpr std::array strategies{"uniform/power",
@@ -134,6 +154,9 @@ template <class Plan> Tally compare_plans(int scenes, int most, const Plan& plan
         const LitScene everything(scene, &tracer, all_effects(scene)),
             planned(scene, &tracer, called_for(scene));
         const GBuffer shading = find_shading_points(scene, planned.lights(), &tracer, 0, 8, serial);
+        GBuffer with_plans = shading;
+        planned.plan(with_plans, serial);
+        tally.called_for.add(planned.tiles_that_call(with_plans).of(with_plans.tiles.size()));
         for (Tile tile : shading.tiles) {
             const auto points = std::span(shading.points).subspan(tile.first, tile.count);
             const char* strategy = strategies[static_cast<std::size_t>(k) % strategies.size()];
@@ -167,11 +190,38 @@ TEST(TilePlans, ChangeNoBitOnRandomScenes)
     EXPECT_GT(tally.proved_shadows, scaled(500));
     EXPECT_GT(tally.proved_lights, scaled(500));
     EXPECT_GT(tally.below_all, scaled(50));
+    for (const double share :
+         {tally.called_for.shadows, tally.called_for.light_occlusion, tally.called_for.horizon,
+          tally.called_for.specular, tally.called_for.choice, tally.called_for.colour}) {
+        EXPECT_GT(share, scaled(100));  // each is left out of many, and not of many
+        EXPECT_LT(share, scaled(950));
+    }
 }
 
 TEST(TilePlans, OfAShaftTooSmallByAPercentAreFoundOut)
 {
     EXPECT_GT(compare_plans(3000, 1, plan_of_a_shaft_too_small).differ, 0);
+}
+
+TEST(EffectShares, OfAllTilesAreExactly1)
+{
+    for (std::size_t tiles = 1; tiles < 300; ++tiles) {
+        EffectShares counts;
+        for (std::size_t t = 0; t < tiles; ++t) counts.add({1, 1, 1, 1, 1, 1});
+        for (const auto share : EffectShares::each())
+            EXPECT_EQ(counts.of(tiles).*share, 1) << tiles;
+    }
+}
+
+TEST(TilePlans, ThatLeaveOutAHorizonInTheWayAreFoundOut)
+{
+    const auto without_horizon = [](const LitScene& lit, const auto& frame,
+                                    std::span<const ShadingPoint> points) {
+        TilePlan plan = TilePlanner(lit.scene(), lit.lights(), lit.effects(), frame).plan(points);
+        plan.horizon = false;
+        return plan;
+    };
+    EXPECT_GT(compare_plans(300, 1, without_horizon).differ, 0);
 }
 
 TEST(TilePlans, OfFloorUnderLightsTraceNothing)
