@@ -37,9 +37,14 @@ std::string paragraph(const std::string& label, const std::string& text)
 
 std::string saving(const EffectPlan& effect)
 {
-    if (!std::isfinite(effect.saved_seconds_per_sample)) return "";
-    return fmt::format("; saves {:.2f} rays and {:.0f} ns a sample of uniform/power",
-                       effect.saved_rays_per_sample, 1e9 * effect.saved_seconds_per_sample);
+    const bool has_rays = effect.saved_rays_per_sample > 0,
+               has_time = std::isfinite(effect.saved_seconds_per_sample);
+    if (!has_rays && !has_time) return "";
+    std::string figures;
+    if (has_rays) figures += fmt::format("{:.2f} rays", effect.saved_rays_per_sample);
+    if (has_rays && has_time) figures += " and ";
+    if (has_time) figures += fmt::format("{:.0f} ns", 1e9 * effect.saved_seconds_per_sample);
+    return fmt::format("; saves {} a sample of uniform/power", figures);
 }
 
 std::string state(const EffectPlan& effect)

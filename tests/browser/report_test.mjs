@@ -325,10 +325,14 @@ async function effects_by_tile() {
   await open(report);
   const rows = await page.value('[...document.querySelectorAll("#effects tbody tr")].map((r) => r.innerText)'), effects = Object.entries(report.json.scenes[0].effects);
   assert.equal(rows.length, effects.length);
-  assert.ok(effects.some(([, e]) => e.on && e.share < 1 && e.saved_seconds_per_sample !== null), "one that is simulated on some tiles alone");
+  assert.ok(effects.some(([, e]) => e.on && e.share < 1 && e.saved_rays_per_sample > 0), "one that is simulated on some tiles alone");
   for (const [name, e] of effects) {
     const row = rows.find((r) => r.startsWith(name.replaceAll("_", " ")));
-    if (e.saved_rays_per_sample !== null) close_to(row.match(/(-?[\d.e-]+)\sns/)[1], 1e9 * e.saved_seconds_per_sample, `${name}: saved`);
+    const rays = row.match(/(-?[\d.e-]+)\srays/), time = row.match(/(-?[\d.e-]+)\sns/);
+    assert.equal(rays !== null, e.saved_rays_per_sample > 0, `${name}: rays are told where some are saved`);
+    assert.equal(time !== null, e.saved_seconds_per_sample !== null, `${name}: time is told where it was measured`);
+    if (rays) close_to(rays[1], e.saved_rays_per_sample, `${name}: rays saved`);
+    if (time) close_to(time[1], 1e9 * e.saved_seconds_per_sample, `${name}: time saved`);
     if (e.on && e.share < 1) close_to(row.match(/on ([\d.]+)\s% of tiles/)[1], Number((100 * e.share).toPrecision(2)), `${name}: share`);
   }
   nothing_went_wrong(report);

@@ -20,13 +20,13 @@ function samples_words(s) {
 
 function draw_effects() {
   const effects = Object.entries(scene_now().effects).sort((a, b) => b[1].on - a[1].on);
-  const saved = (e) => e.saved_rays_per_sample === null ? "" : `${number(e.saved_rays_per_sample)}\u00a0rays, ${number(1e9 * e.saved_seconds_per_sample)}\u00a0ns`;
+  const saved = (e) => [e.saved_rays_per_sample ? `${number(e.saved_rays_per_sample)}\u00a0rays` : "", e.saved_seconds_per_sample === null ? "" : `${number(1e9 * e.saved_seconds_per_sample)}\u00a0ns`].filter((figure) => figure !== "").join(", ");
   const any_saved = effects.some(([, e]) => saved(e) !== "");
   const heads = [{ text: "Effect", className: "text" }, { text: "Why", className: "text" }];
   if (any_saved) heads.push({ text: "Saved", className: "saved" });
   $("effects").replaceChildren(table_of("Effects", heads, effects.map(([name, e]) => make("tr", { className: e.on ? "" : "out" }, cell([name.replaceAll("_", " "), make("small", { className: "below" }, e.on ? e.share < 1 ? `on ${percent(e.share)} of tiles` : "simulated" : "left out")], "text"),
     cell(e.why, "text wrap"), ...(any_saved ? [cell(saved(e), "saved")] : [])))),
-    any_saved ? make("p", { className: "note" }, "Saved: per sample of uniform/power, by leaving the effect out of the tiles that do not call for it.") : "");
+    any_saved ? make("p", { className: "note" }, "Saved: per sample of uniform/power, by leaving the effect out of the tiles that do not call for it; no time where noise hides it.") : "");
 }
 
 function draw_checks() {
