@@ -39,6 +39,7 @@ const Graph may_include{
     {"bind", {"engine", "compare"}},
     {"bind/python", {"io", "run"}},
     {"mis.h", {"engine", "run/serial.h"}},  // the core in one include
+    {"c.h", {"bind/c.h"}},                  // the same for C
     {"cli", {"io", "bind", "run", "mis.h"}},
 };
 

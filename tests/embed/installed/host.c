@@ -1,5 +1,5 @@
 /* A renderer in C99: a white floor under two lamps, by every policy and technique that it names, against the closed form. */
-#include <mis/bind/c.h>
+#include <mis/c.h>
 
 #include <math.h>
 #include <stdio.h>
