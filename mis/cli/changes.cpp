@@ -50,6 +50,11 @@ int run_changes(const CompareOptions& options)
     if (options.fail_on_regression) how.worse_by = *options.fail_on_regression / 100;
     const Changes changes =
         changes_between(read_report(options.scenes[0]), read_report(options.scenes[1]), how);
+    if (options.fail_on_regression && changes.comparisons == 0 && !changes.has_regression())
+        throw UsageError(fmt::format(
+            "--fail-on-regression: found no figure that is in both {} and {}\n    Two "
+            "runs over the same scenes, with strategies that both ranked, are compared.",
+            options.scenes[0], options.scenes[1]));
     const OutputOptions& output = options.output;
     if (output.json != "-" && output.csv != "-") fmt::print("{}", changes_text(changes));
     if (!output.json.empty())

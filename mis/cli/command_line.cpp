@@ -19,7 +19,7 @@ namespace mis::cli {
 
 namespace {
 
-std::string names_of(const std::vector<Choosable>& list)
+std::string described(const std::vector<Choosable>& list)
 {
     std::string text;
     for (const Choosable& c : list) text += fmt::format("  {:<20} {}\n", c.name, c.summary);
@@ -32,8 +32,8 @@ std::string strategy_help()
            "solid-angle/power or\n"
            "power/balance/union@4+1; or one that chooses no light: brdf, cosine, "
            "hemisphere.\n\nPolicies:\n" +
-           names_of(policy_names()) + "Heuristics:\n" + names_of(heuristic_names()) +
-           "Techniques:\n" + names_of(technique_names());
+           described(policy_names()) + "Heuristics:\n" + described(heuristic_names()) +
+           "Techniques:\n" + described(technique_names());
 }
 
 /// What is wrong with the text of a whole number of that type, or nothing; the parser's own

@@ -69,7 +69,7 @@ void Progress::show(const std::string& what, double done, const std::string& tab
     const TerminalSize terminal = terminal_size();
     line.resize(std::min(line.size(), terminal.columns - 1));
     if (is_drawn_) go_back();
-    const bool has_room = terminal.columns > text_columns && terminal.rows > 8;
+    const bool has_room = terminal.columns >= text_columns && terminal.rows > 8;
     remark("{}{}", first_lines(table, has_room ? terminal.rows - 2 : 0, lines_above_), line);
     std::fflush(stderr);
     is_drawn_ = true;

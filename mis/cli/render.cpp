@@ -7,6 +7,7 @@
 #include "mis/compare/resolved.h"
 #include "mis/engine/exact.h"
 #include "mis/engine/render.h"
+#include "mis/engine/stopwatch.h"
 #include "mis/io/image_exr.h"
 #include "mis/strategy/strategy.h"
 
@@ -22,11 +23,6 @@
 namespace mis::cli {
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// How far off the picture is: √ of the mean of variance/n/(μ² + ε²) over its points (design §1),
 /// and how many samples carry that.

@@ -24,9 +24,9 @@ constexpr std::size_t fewest_looks = 1024;
 /// Sample numbers of the audit start here: no strategy draws from them.
 constexpr std::uint64_t first_sample = std::uint64_t{1} << 48;
 
-/// Integrals of one strategy at one point, from one group of draws: of w²F²/p of both techniques,
-/// and of wF of each.
-struct Integrals {
+/// AuditIntegrals of one strategy at one point, from one group of draws: of w²F²/p of both
+/// techniques, and of wF of each.
+struct AuditIntegrals {
     double square = 0, light = 0, bsdf = 0;
 };
 
@@ -61,14 +61,14 @@ public:
     }
 
     /// [group][strategy], each group the mean of `repeats` draws of every technique of the mixture.
-    std::vector<std::vector<Integrals>> integrals(const AuditPoint& at, std::size_t repeats,
-                                                  std::uint64_t seed)
+    std::vector<std::vector<AuditIntegrals>> integrals(const AuditPoint& at, std::size_t repeats,
+                                                       std::uint64_t seed)
     {
         begin(at);
-        std::vector<std::vector<Integrals>> found(groups,
-                                                  std::vector<Integrals>(strategies_.size()));
+        std::vector<std::vector<AuditIntegrals>> found(
+            groups, std::vector<AuditIntegrals>(strategies_.size()));
         std::uint32_t draw = 0;
-        for (std::vector<Integrals>& sums : found) {
+        for (std::vector<AuditIntegrals>& sums : found) {
             for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
                 for (auto& [name, policy] : policies_)
                     if (!policy.draws_every_light())
@@ -77,7 +77,7 @@ public:
                 take(sums, bsdf_direction(false, draw++, seed));
             }
             const double n = static_cast<double>(repeats);
-            for (Integrals& sum : sums) sum = {sum.square / n, sum.light / n, sum.bsdf / n};
+            for (AuditIntegrals& sum : sums) sum = {sum.square / n, sum.light / n, sum.bsdf / n};
         }
         return found;
     }
@@ -160,7 +160,7 @@ private:
         return density;
     }
 
-    void take(std::vector<Integrals>& sums, const Vec3<double>& wi) const
+    void take(std::vector<AuditIntegrals>& sums, const Vec3<double>& wi) const
     {
         if (length2(wi) == 0) return;
         const Seen seen = look(wi);
@@ -171,7 +171,7 @@ private:
         for (std::size_t s = 0; s < strategies_.size(); ++s) add(sums[s], s, seen, mixture);
     }
 
-    void add(Integrals& sum, std::size_t s, const Seen& seen, double mixture) const
+    void add(AuditIntegrals& sum, std::size_t s, const Seen& seen, double mixture) const
     {
         const Strategy& strategy = strategies_[s];
         const double f = seen.luminance;
@@ -223,7 +223,7 @@ template <class Value> double squared_mean(std::size_t left_out, const Value& va
 
 /// The variance of one sample at one point, from all groups but one.
 double variance_without(std::size_t left_out, const Strategy& s,
-                        const std::array<Integrals, groups>& g)
+                        const std::array<AuditIntegrals, groups>& g)
 {
     double square = 0, n = 0;
     for (std::size_t i = 0; i < groups; ++i)
@@ -282,9 +282,9 @@ std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoi
         Auditor auditor(scene, strategies);
         sums[part].resize(strategies.size());
         for (std::size_t p = part; p < points.size(); p += parts) {
-            const std::vector<std::vector<Integrals>> drawn =
+            const std::vector<std::vector<AuditIntegrals>> drawn =
                 auditor.integrals(points[p], repeats, seed);
-            std::vector<std::array<Integrals, groups>> found(strategies.size());
+            std::vector<std::array<AuditIntegrals, groups>> found(strategies.size());
             for (std::size_t g = 0; g < groups; ++g)
                 for (std::size_t s = 0; s < strategies.size(); ++s) found[s][g] = drawn[g][s];
             for (std::size_t s = 0; s < strategies.size(); ++s)

@@ -1,14 +1,13 @@
 #include "mis/compare/change.h"
 
+#include "mis/math/limits.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace mis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double interval_tail = 0.025;        // every interval is 95 %
 constexpr double normal_quantile = 1.9599640;  // of that tail: the least that Student's t can have
 constexpr double least_se = 1e-12;             // what doubles leave of a logarithm or a quotient
 constexpr double mean_rounding = 4.8e-7;       // 4 ulp of float: samples are computed in it

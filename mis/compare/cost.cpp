@@ -2,8 +2,10 @@
 
 #include "mis/compare/bias.h"
 #include "mis/compare/cost_fit.h"
+#include "mis/compare/estimate.h"
 #include "mis/compare/figures.h"
 #include "mis/compare/resolved.h"
+#include "mis/math/limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +14,6 @@
 namespace mis {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 /// Of the root of a squared error. Where that is not above 0, only an upper bound is known.
 Interval error_interval(const SquaredError& e)
 {
@@ -21,7 +21,7 @@ Interval error_interval(const SquaredError& e)
         return interval_of({0.5 * std::log(e.value), 0.5 * e.se / e.value, e.dof});
     const double least = std::max(0.0, e.value);
     if (std::isnan(e.se)) return {std::sqrt(least), nan, nan};
-    const double high = least + (e.se > 0 ? t_quantile(0.025, e.dof) * e.se : 0);
+    const double high = least + (e.se > 0 ? t_quantile(interval_tail, e.dof) * e.se : 0);
     return {std::sqrt(least), 0, std::sqrt(high)};
 }
 

@@ -1,5 +1,7 @@
 #include "mis/compare/cost_crossings.h"
 
+#include "mis/compare/estimate.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -114,7 +116,7 @@ std::vector<CrossingReport> find_crossings(std::span<const CostModel> models)
     std::vector<CrossingReport> found;
     if (members < 2 || errors.empty()) return found;
     // Either side of a crossing can be wrong.
-    const double tail = 0.025 / (0.5 * double(members) * double(members - 1));
+    const double tail = interval_tail / (0.5 * double(members) * double(members - 1));
     for (std::size_t a = 0; a < models.size(); ++a)
         for (std::size_t b = a + 1; b < models.size(); ++b)
             if (takes_part(models[a]) && takes_part(models[b]))

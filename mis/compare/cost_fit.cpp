@@ -1,17 +1,16 @@
 #include "mis/compare/cost_fit.h"
 
+#include "mis/compare/estimate.h"
 #include "mis/compare/resolved.h"
+#include "mis/math/limits.h"
 #include "mis/math/moments.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace mis {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Mean of `values`, without the one at `left_out`, if any.
 double mean_without(std::span<const double> values, std::size_t left_out)
@@ -158,7 +157,8 @@ LogEstimate fitted_slope(std::span<const CostLevel* const> levels, const Referen
 Interval linear_interval(const LogEstimate& estimate)
 {
     if (!(estimate.se >= 0)) return {estimate.value, nan, nan};
-    const double half_width = estimate.se > 0 ? t_quantile(0.025, estimate.dof) * estimate.se : 0;
+    const double half_width =
+        estimate.se > 0 ? t_quantile(interval_tail, estimate.dof) * estimate.se : 0;
     return {estimate.value, estimate.value - half_width, estimate.value + half_width};
 }
 

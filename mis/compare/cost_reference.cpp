@@ -1,22 +1,15 @@
 #include "mis/compare/cost_reference.h"
 
+#include "mis/engine/stopwatch.h"
 #include "mis/predict/predict.h"
 #include "mis/strategy/names.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 
 namespace mis {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 double points_of(const StudyGround& ground)
 {

@@ -5,27 +5,20 @@
 #include "mis/compare/cost_sampler.h"
 #include "mis/compare/schedule.h"
 #include "mis/compare/words.h"
+#include "mis/engine/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace mis {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr int replicates = 8;
+constexpr int replicate_count = 8;
 constexpr double reference_share = 0.3;         // of the time, at most
 constexpr std::uint64_t reference_factor = 64;  // its samples over the last doubling's, with --spp
 constexpr std::size_t levels_before_twins = 3;
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 24;
 constexpr std::uint64_t apart = std::uint64_t{1} << 20;  // a stream that no replicate has
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// One curve under way.
 struct Curve {
@@ -104,7 +97,7 @@ private:
         for (const Curve& curve : curves_) strategies.push_back(curve.measured.strategy);
         constexpr int first_levels = 1 + 2 + 4;
         const std::vector<CostEstimate> costs =
-            estimate_costs(ground_, strategies, replicates * first_levels,
+            estimate_costs(ground_, strategies, replicate_count * first_levels,
                            0.6 * seconds_left() * ground_.executor.threads);
         for (std::size_t c = 0; c < curves_.size(); ++c) {
             if (costs[c].is_affordable) continue;
@@ -126,8 +119,8 @@ private:
     {
         std::vector<CostLevel> levels(curves_.size());
         std::vector<double> seconds(curves_.size());
-        for (int r = 0; r < replicates; ++r) {
-            const std::uint64_t stream = level_ * replicates + static_cast<std::uint64_t>(r);
+        for (int r = 0; r < replicate_count; ++r) {
+            const std::uint64_t stream = level_ * replicate_count + static_cast<std::uint64_t>(r);
             for (const std::size_t c :
                  round_order(curves_.size(), options_.seed, static_cast<std::uint32_t>(stream))) {
                 if (ground_.is_stopped()) return;
@@ -162,10 +155,10 @@ private:
             make_sampler(ground_, judged_, reference_, m.strategy, m.precision, options_.is_sobol);
         curve.sampler->run(1, apart);
         const double seconds = seconds_since(start);
-        if (options_.spp || seconds * replicates < 0.5 * seconds_left()) return true;
+        if (options_.spp || seconds * replicate_count < 0.5 * seconds_left()) return true;
         curve.is_done = true;
         curve.measured.reason = "past the budget: one sample per point takes " + duration(seconds) +
-                                ", " + std::to_string(replicates) + " times";
+                                ", " + std::to_string(replicate_count) + " times";
         return false;
     }
 
@@ -234,10 +227,10 @@ private:
             CostLevel level;
             level.samples = std::uint64_t{1} << k;
             const Clock::time_point start = Clock::now();
-            for (int r = 0; r < replicates; ++r) {
+            for (int r = 0; r < replicate_count; ++r) {
                 if (ground_.is_stopped()) return;
                 add_replicate(level, curve, level.samples,
-                              k * replicates + static_cast<std::uint64_t>(r));
+                              k * replicate_count + static_cast<std::uint64_t>(r));
             }
             curve.level_seconds = seconds_since(start);
             curve.all_seconds += curve.level_seconds;
@@ -260,7 +253,7 @@ private:
         report.width = points_.shading.width;
         report.height = points_.shading.height;
         report.shading_points = points_.figure_points;
-        report.replicates = replicates;
+        report.replicates = replicate_count;
         report.copies = judged_.copies;
         report.is_sobol = options_.is_sobol;
         report.epsilon = reference_.scale.epsilon;

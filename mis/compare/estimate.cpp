@@ -1,5 +1,6 @@
 #include "mis/compare/estimate.h"
 
+#include "mis/math/limits.h"
 #include "mis/math/moments.h"
 #include "mis/math/stable.h"
 
@@ -10,14 +11,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace mis {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double interval_tail = 0.025;  // every interval is 95 %
 
 double as_double(std::size_t n) { return static_cast<double>(n); }
 

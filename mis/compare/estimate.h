@@ -60,6 +60,9 @@ double upper_p(const LogEstimate& estimate, double at);
 /// P(T ≥ t) of Student's t.
 double upper_tail(double t, double dof);
 
+/// The share of each side outside an interval of 95 %.
+inline constexpr double interval_tail = 0.025;
+
 /// The t that is exceeded with probability `tail`.
 double t_quantile(double tail, double dof);
 

@@ -1,10 +1,10 @@
 #include "mis/compare/explain.h"
 
 #include "mis/compare/savings.h"
+#include "mis/math/limits.h"
 #include "mis/math/stable.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace mis {
 
@@ -12,7 +12,6 @@ namespace {
 
 void count_lights(Explanation& found, const Lights& lights)
 {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     found.lights = lights.size();
     found.radius = found.power = {infinity, 0};
     for (const Light& light : lights) {

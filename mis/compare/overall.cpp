@@ -20,8 +20,8 @@ struct LogSum {
     void add(const Interval& ratio, int replicates)
     {
         sum += std::log(ratio.value);
-        const double se =
-            std::log(ratio.high / ratio.low) / (2 * t_quantile(0.025, std::max(1, replicates - 1)));
+        const double se = std::log(ratio.high / ratio.low) /
+                          (2 * t_quantile(interval_tail, std::max(1, replicates - 1)));
         variance += se * se;
         ++scenes;
     }

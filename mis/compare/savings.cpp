@@ -9,7 +9,7 @@ namespace mis {
 
 namespace {
 
-constexpr int repetitions = 7, samples = 4;
+constexpr int repetitions = 7, samples_of_run = 4;
 
 /// An effect that its tile says: where, and by which proof of single lights.
 struct OfTiles {
@@ -52,7 +52,7 @@ TileTotals run(const ReadyStrategy<float>& strategy, Workspace<float>& workspace
         std::vector<PointResult> results(tile.count);
         totals.add(workspace.run(
             strategy.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
-            strategy.pipeline(tile), {.chunk = samples, .chunks = 1}, results, {}, {}));
+            strategy.pipeline(tile), {.chunk = samples_of_run, .chunks = 1}, results, {}, {}));
     }
     return totals;
 }

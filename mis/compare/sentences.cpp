@@ -1,17 +1,17 @@
 #include "mis/compare/sentences.h"
 
 #include "mis/compare/words.h"
+#include "mis/math/limits.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 #include <utility>
 
 namespace mis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t most_undecided = 5;  // pairs named; the rest is a number
+constexpr std::size_t most_pairs = 5;  // named, undecided or tied; the rest is a number
 
 class SceneWords {
 public:
@@ -74,16 +74,16 @@ private:
 
     bool is_timed(int i) const { return std::isfinite(seconds(i)); }
 
-    /// What the best is measured against in the verdict: the next that is surely behind, and what
-    /// is commonly used.
+    /// What the best is measured against in the verdict, of those that are surely behind: the
+    /// next, and what is commonly used.
     std::vector<int> alternatives(const std::vector<int>& order) const
     {
         std::vector<int> found;
         for (std::size_t k = 1; k < order.size(); ++k) {
             const std::string is = name(order[k]);
             const PairReport* p = pair(order[0], order[k]);
-            const bool is_next = found.empty() && p && p->time_verdict == Verdict::apart;
-            if (is_next || is == "uniform/power" || is == "power/power" || is == "brdf")
+            if (!p || p->time_verdict != Verdict::apart) continue;
+            if (found.empty() || is == "uniform/power" || is == "power/power" || is == "brdf")
                 found.push_back(order[k]);
         }
         return found;
@@ -105,7 +105,7 @@ private:
     void say_verdict()
     {
         const std::vector<int> order = in_order();
-        if (order.empty()) return say("No strategy could be ranked on this scene");
+        if (order.empty()) return say("No strategy could be ranked on this scene" + remedy());
         const int best = order[0];
         std::vector<std::string> gains;
         for (const int i : alternatives(order))
@@ -122,6 +122,17 @@ private:
         say_how_sure(best);
         say_most_efficient(best);
         say_least_variance(best);
+    }
+
+    /// What would rank the first of those that rare samples keep from it.
+    std::string remedy() const
+    {
+        double least = infinity;
+        for (const StrategyReport& s : scene_.strategies)
+            if (s.status == Status::not_resolved) least = std::min(least, s.resolving_factor);
+        return std::isfinite(least) && least > 1
+                   ? ": about " + number(least, 2) + " times the samples (--spp, --time) may tell"
+                   : "";
     }
 
     /// Those that could not be resolved, but are ahead of `best` by the samples that they have.
@@ -200,12 +211,48 @@ private:
                 " exact here: every sample gives the result");
     }
 
+    bool are_tied(int i, int j) const
+    {
+        const PairReport* p = pair(i, j);
+        return p && p->verdict == Verdict::tied;
+    }
+
+    /// Ranked strategies of which each is tied with each, in variance: greedily, from the first on.
+    std::vector<std::vector<int>> tied_groups() const
+    {
+        std::vector<std::vector<int>> groups;
+        for (const int i : in_order()) {
+            if (of(i).exact) continue;
+            const auto group = std::ranges::find_if(groups, [&](const std::vector<int>& members) {
+                return std::ranges::all_of(members, [&](int j) { return are_tied(i, j); });
+            });
+            if (group == groups.end()) groups.push_back({i});
+            else group->push_back(i);
+        }
+        return groups;
+    }
+
     void say_ties()
     {
-        for (const PairReport& p : scene_.pairs)
-            if (p.verdict == Verdict::tied && !of(p.a).exact)
-                say(name(p.a) + " and " + name(p.b) + " are tied in variance within " +
-                    percent(margin_) + " (ratio " + with_error(p.ratio) + ")");
+        std::set<std::pair<int, int>> told;
+        for (const std::vector<int>& group : tied_groups()) {
+            if (group.size() < 3) continue;
+            std::vector<std::string> names;
+            for (const int i : group) {
+                names.push_back(name(i));
+                for (const int j : group) told.emplace(i, j);
+            }
+            say(listed(names) + " are tied in variance, each with each, within " +
+                percent(margin_));
+        }
+        std::size_t pairs = 0;
+        for (const PairReport& p : scene_.pairs) {
+            if (p.verdict != Verdict::tied || of(p.a).exact || told.contains({p.a, p.b})) continue;
+            if (++pairs > most_pairs) continue;
+            say(name(p.a) + " and " + name(p.b) + " are tied in variance within " +
+                percent(margin_) + " (ratio " + with_error(p.ratio) + ")");
+        }
+        if (pairs > most_pairs) say(std::to_string(pairs - most_pairs) + " more pairs are tied");
     }
 
     /// "290 more replicates (19 times as many samples)".
@@ -221,15 +268,15 @@ private:
     {
         std::size_t undecided = 0;
         for (const PairReport& p : scene_.pairs) {
-            if (p.verdict != Verdict::undecided || ++undecided > most_undecided) continue;
+            if (p.verdict != Verdict::undecided || ++undecided > most_pairs) continue;
             say(name(p.a) + " and " + name(p.b) + " are undecided in variance (ratio " +
                 with_error(p.ratio) + ")" +
                 (std::isfinite(p.more_replicates)
                      ? ": about " + replicates(p.more_replicates) + " would decide"
                      : ""));
         }
-        if (undecided > most_undecided)
-            say(std::to_string(undecided - most_undecided) + " more pairs are undecided");
+        if (undecided > most_pairs)
+            say(std::to_string(undecided - most_pairs) + " more pairs are undecided");
     }
 
     void say_excluded()
@@ -276,10 +323,18 @@ std::vector<std::string> overall_sentences_of(const Report& report)
         return {"No strategy was ranked on all scenes, so there is no overall ranking."};
     const std::string use =
         "Over all " + std::to_string(report.scenes.size()) + " scenes use " + best->name + ": ";
-    if (best->time_ratio.value < 1.005)
-        return {use + "on each it is among the first to reach 1 % error."};
-    return {use + "it takes " + with_error(best->time_ratio) +
-            " times as long to 1 % error as the best of each scene (geometric mean)."};
+    std::vector<std::string> said{
+        best->time_ratio.value < 1.005
+            ? use + "on each it is among the first to reach 1 % error."
+            : use + "it takes " + with_error(best->time_ratio) +
+                  " times as long to 1 % error as the best of each scene (geometric mean)."};
+    const std::size_t of = report.scenes[0].strategies.size();
+    if (report.overall.size() < of)
+        said.push_back("It is ranked among the " + std::to_string(report.overall.size()) + " of " +
+                       std::to_string(of) +
+                       " strategies that could be ranked on every scene; on a scene of your own "
+                       "another may be better.");
+    return said;
 }
 
 }  // namespace mis

@@ -6,10 +6,10 @@
 #include "mis/compare/schedule.h"
 #include "mis/compare/study_audit.h"
 #include "mis/compare/words.h"
+#include "mis/engine/stopwatch.h"
 #include "mis/strategy/names.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -17,13 +17,6 @@
 namespace mis {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::size_t triangles_of(const Scene& scene)
 {
@@ -216,9 +209,14 @@ private:
     {
         plan_ = plan_for(*options_.spp / static_cast<std::uint64_t>(samples_per_observation()));
         if (points() == 0) return;
+        double samples = 0, last_look = 0;
         for (const int chunk : plan_.chunks) {
             rounds(chunk);
             if (is_stopped()) return;
+            samples += chunk;
+            if (!options_.progress || rounds_ < 3 || samples < 1.4 * last_look) continue;
+            last_look = samples;
+            rank_now(1);  // to be shown; it decides nothing
         }
         if (plan_.remainder > 0)
             for (auto& run : study_.runs)

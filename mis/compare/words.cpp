@@ -76,7 +76,7 @@ std::string duration(double seconds)
     if (seconds >= 100) return number(seconds / 60, 2) + " min";
     if (seconds >= 1 || seconds <= 0) return number(seconds, 2) + " s";
     if (seconds >= 1e-3) return number(1e3 * seconds, 2) + " ms";
-    return number(1e6 * seconds, 2) + " us";
+    return number(1e6 * seconds, 2) + " µs";
 }
 
 std::string listed(std::span<const std::string> names)

@@ -51,7 +51,7 @@ Blockers::~Blockers()
 }
 
 /// All that a list is about, seen from a ball of points.
-Beam Blockers::beam_from(const Ball& ball, std::size_t place) const
+Beam Blockers::beam_from(const BoundingBall& ball, std::size_t place) const
 {
     const Vec3<double> from = ball.center - spheres_->origin;
     if (place < lights_->size()) {

@@ -112,7 +112,7 @@ private:
     using Words = std::uint16_t;
     bool waits(std::size_t place, const Words* list, std::uintptr_t asks) const;
     const Words* make(std::size_t place) const;
-    Beam beam_from(const Ball& ball, std::size_t place) const;
+    Beam beam_from(const BoundingBall& ball, std::size_t place) const;
 
     static const std::array<Words, 2> too_long, none;
     std::shared_ptr<const FloatSpheres> spheres_;

@@ -18,9 +18,9 @@ struct Part {
     }
     double size2() const { return length2(high - low); }
     /// In the middle of the box.
-    Ball ball() const
+    BoundingBall ball() const
     {
-        Ball ball{0.5 * (low + high), 0};
+        BoundingBall ball{0.5 * (low + high), 0};
         for (const Vec3<double>& x : points)
             ball.radius = std::max(ball.radius, length(x - ball.center));
         return ball;

@@ -12,7 +12,7 @@
 namespace mis {
 
 /// A ball; scene units.
-struct Ball {
+struct BoundingBall {
     Vec3<double> center{0};
     double radius = 0;
 };
@@ -26,9 +26,9 @@ public:
     /// points: at least one.
     explicit TileParts(std::span<const ShadingPoint> points);
 
-    std::span<const Ball> balls() const { return std::span(balls_).first(count_); }
+    std::span<const BoundingBall> balls() const { return std::span(balls_).first(count_); }
     /// The ball around them all.
-    const Ball& around() const { return around_; }
+    const BoundingBall& around() const { return around_; }
 
     /// A ball that holds x, looked for at `guess` first; balls().size() where there is none.
     std::size_t holding(const Vec3<double>& x, std::size_t guess) const
@@ -40,14 +40,14 @@ public:
     }
 
 private:
-    static bool holds(const Ball& ball, const Vec3<double>& x)
+    static bool holds(const BoundingBall& ball, const Vec3<double>& x)
     {
         return length(x - ball.center) <= ball.radius;
     }
 
-    std::array<Ball, most> balls_;
+    std::array<BoundingBall, most> balls_;
     std::size_t count_ = 0;
-    Ball around_;
+    BoundingBall around_;
 };
 
 }  // namespace mis

@@ -1,5 +1,6 @@
 #include "mis/effects/tile_plan.h"
 
+#include "mis/math/limits.h"
 #include "mis/trace/intersect.h"
 
 #include <algorithm>
@@ -87,7 +88,6 @@ TilePlanner::TilePlanner(const Scene& scene, const LightHierarchy& hierarchy,
 TilePlanner::Heights TilePlanner::heights(const Body& quad,
                                           std::span<const ShadingPoint> points) const
 {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Heights over{infinity, infinity};
     if (!quad.is_flat) return over;
     const double plane = dot(quad.normal, quad.corners[0] - frame_);

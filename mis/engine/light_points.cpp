@@ -22,8 +22,6 @@ template <class U> bool are_as_long(const std::array<std::span<U>, 3>& arrays, s
     return std::ranges::all_of(arrays, [=](const auto& a) { return a.size() == size; });
 }
 
-bool is_finite(const Vec3<double>& v) { return std::isfinite(v.x + v.y + v.z); }
-
 }  // namespace
 
 TileTotals PointLighter::light(const PointArrays& points, std::uint64_t first, int count,
@@ -68,7 +66,8 @@ void PointLighter::light_some(const PointArrays& points, std::size_t begin, std:
                 vec_cast<float>(at<double>(points.ray_origin, i) - frame), points.id[i]};
             for (const std::span<float>& channel : radiance) channel[i] = 0;
             const float cos_out = dot(point.n, point.wo);
-            if (!is_known || !is_finite(point.x) || !std::isfinite(cos_out)) {
+            if (!is_known || !std::isfinite(point.x.x + point.x.y + point.x.z) ||
+                !std::isfinite(cos_out)) {
                 totals_.invalid += static_cast<std::uint64_t>(count);
                 continue;
             }

@@ -6,6 +6,14 @@
 
 namespace mis {
 
+using Clock = std::chrono::steady_clock;
+
+/// Seconds by the clock on the wall.
+inline double seconds_since(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 /// CPU seconds of the calling thread.
 inline double thread_seconds()
 {

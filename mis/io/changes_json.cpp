@@ -12,8 +12,6 @@
 namespace mis {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string verdict(const Change& change)
 {
     return !change.is_compared() ? "" : change.is_changed ? "changed" : "~";
@@ -26,7 +24,7 @@ const char* name_of_change(ChangingFigure figure)
     return figure == ChangingFigure::mean ? "difference" : "ratio";
 }
 
-Json json_of(ChangingFigure figure, const Change& change)
+OrderedJson json_of(ChangingFigure figure, const Change& change)
 {
     return {{"before", json_figure(change.before)},
             {"after", json_figure(change.after)},
@@ -35,14 +33,14 @@ Json json_of(ChangingFigure figure, const Change& change)
             {"regression", change.is_regression}};
 }
 
-Json json_of(const StrategyChange& s)
+OrderedJson json_of(const StrategyChange& s)
 {
-    Json json{{"name", s.name},
-              {"status_before", json_text_or_null(status(s.status_before))},
-              {"status_after", json_text_or_null(status(s.status_after))},
-              {"exact_before", s.exact_before},
-              {"exact_after", s.exact_after},
-              {"newly_biased", s.is_newly_biased()}};
+    OrderedJson json{{"name", s.name},
+                     {"status_before", json_text_or_null(status(s.status_before))},
+                     {"status_after", json_text_or_null(status(s.status_after))},
+                     {"exact_before", s.exact_before},
+                     {"exact_after", s.exact_after},
+                     {"newly_biased", s.is_newly_biased()}};
     for (std::size_t i = 0; i < figures_that_change; ++i) {
         const auto figure = static_cast<ChangingFigure>(i);
         json[name_of(figure)] = json_of(figure, s.figures[i]);
@@ -50,13 +48,13 @@ Json json_of(const StrategyChange& s)
     return json;
 }
 
-Json json_of(const SceneChange& scene)
+OrderedJson json_of(const SceneChange& scene)
 {
-    Json json{{"name", scene.name},
-              {"file_before", json_text_or_null(scene.file_before)},
-              {"file_after", json_text_or_null(scene.file_after)},
-              {"remarks", scene.remarks},
-              {"strategies", Json::array()}};
+    OrderedJson json{{"name", scene.name},
+                     {"file_before", json_text_or_null(scene.file_before)},
+                     {"file_after", json_text_or_null(scene.file_after)},
+                     {"remarks", scene.remarks},
+                     {"strategies", OrderedJson::array()}};
     for (const StrategyChange& s : scene.strategies) json["strategies"].push_back(json_of(s));
     return json;
 }
@@ -92,19 +90,20 @@ CsvRow row_of(const SceneChange& scene, const StrategyChange& s)
 
 std::string changes_json(const Changes& changes, const ChangesHeader& header)
 {
-    Json json{{"format", "mis-changes/1"},
-              {"version", header.version},
-              {"command", header.command},
-              {"file_before", header.file_before},
-              {"file_after", header.file_after},
-              {"error", json_figure(changes.error)},
-              {"comparisons", changes.comparisons},
-              {"changed", changes.changed},
-              {"fail_on_regression",
-               changes.worse_by ? json_figure(100 * *changes.worse_by) : Json(nullptr)},
-              {"regression", changes.worse_by ? Json(changes.has_regression()) : Json(nullptr)},
-              {"remarks", changes.remarks},
-              {"scenes", Json::array()}};
+    OrderedJson json{{"format", "mis-changes/1"},
+                     {"version", header.version},
+                     {"command", header.command},
+                     {"file_before", header.file_before},
+                     {"file_after", header.file_after},
+                     {"error", json_figure(changes.error)},
+                     {"comparisons", changes.comparisons},
+                     {"changed", changes.changed},
+                     {"fail_on_regression", changes.worse_by ? json_figure(100 * *changes.worse_by)
+                                                             : OrderedJson(nullptr)},
+                     {"regression", changes.worse_by ? OrderedJson(changes.has_regression())
+                                                     : OrderedJson(nullptr)},
+                     {"remarks", changes.remarks},
+                     {"scenes", OrderedJson::array()}};
     for (const SceneChange& scene : changes.scenes) json["scenes"].push_back(json_of(scene));
     return json_text(json);
 }

@@ -9,9 +9,7 @@
 namespace mis {
 namespace {
 
-using Json = OrderedJson;
-
-Json point_json(const CostPoint& p)
+OrderedJson point_json(const CostPoint& p)
 {
     return {{"samples", p.samples},
             {"error", json_interval(p.error)},
@@ -20,7 +18,7 @@ Json point_json(const CostPoint& p)
             {"gain", json_interval(p.gain)}};
 }
 
-Json time_json(const TimeToError& t)
+OrderedJson time_json(const TimeToError& t)
 {
     return {{"error", t.error},
             {"samples", json_figure(t.samples)},
@@ -28,9 +26,9 @@ Json time_json(const TimeToError& t)
             {"reach", name_of(t.reach)}};
 }
 
-Json curve_json(const CostCurveReport& c)
+OrderedJson curve_json(const CostCurveReport& c)
 {
-    Json json = json_identity(c.strategy);
+    OrderedJson json = json_identity(c.strategy);
     json["precision"] = name_of(c.precision);
     json["status"] = c.reason.empty() ? "measured" : "not_run";
     json["reason"] = json_text_or_null(c.reason);
@@ -42,18 +40,19 @@ Json curve_json(const CostCurveReport& c)
     json["seconds_per_point"] = json_interval(c.seconds_per_point);
     json["seconds_per_sample"] = json_interval(c.seconds_per_sample);
     json["invalid_samples"] = c.invalid_samples;
-    json["points"] = Json::array();
+    json["points"] = OrderedJson::array();
     for (const CostPoint& p : c.points) json["points"].push_back(point_json(p));
-    json["times"] = Json::array();
+    json["times"] = OrderedJson::array();
     for (const TimeToError& t : c.times) json["times"].push_back(time_json(t));
     return json;
 }
 
-Json crossing_json(const CrossingReport& c, const CostSceneReport& scene)
+OrderedJson crossing_json(const CrossingReport& c, const CostSceneReport& scene)
 {
     const auto curve = [&](int i) {
         const CostCurveReport& found = scene.curves[static_cast<std::size_t>(i)];
-        return Json{{"name", name_of(found.strategy)}, {"precision", name_of(found.precision)}};
+        return OrderedJson{{"name", name_of(found.strategy)},
+                           {"precision", name_of(found.precision)}};
     };
     return {{"before", curve(c.before)},
             {"after", curve(c.after)},
@@ -62,27 +61,28 @@ Json crossing_json(const CrossingReport& c, const CostSceneReport& scene)
             {"extrapolated", c.is_extrapolated}};
 }
 
-Json scene_json(const CostSceneReport& s)
+OrderedJson scene_json(const CostSceneReport& s)
 {
-    Json json{{"file", s.file},
-              {"name", s.name},
-              {"lights", s.lights},
-              {"resolution", s.width > 0 ? Json{s.width, s.height} : Json(nullptr)},
-              {"shading_points", s.shading_points},
-              {"replicates", s.replicates},
-              {"copies", s.copies},
-              {"epsilon", json_figure(s.epsilon)},
-              {"partial", s.partial},
-              {"seconds", json_figure(s.seconds)},
-              {"reference",
-               {{"kind", s.reference.exact ? "exact" : "pooled"},
-                {"strategies", s.reference.sources},
-                {"samples", s.reference.samples},
-                {"error", json_figure(s.reference.error)},
-                {"agrees", s.reference.agrees}}}};
-    json["strategies"] = Json::array();
+    OrderedJson json{
+        {"file", s.file},
+        {"name", s.name},
+        {"lights", s.lights},
+        {"resolution", s.width > 0 ? OrderedJson{s.width, s.height} : OrderedJson(nullptr)},
+        {"shading_points", s.shading_points},
+        {"replicates", s.replicates},
+        {"copies", s.copies},
+        {"epsilon", json_figure(s.epsilon)},
+        {"partial", s.partial},
+        {"seconds", json_figure(s.seconds)},
+        {"reference",
+         {{"kind", s.reference.exact ? "exact" : "pooled"},
+          {"strategies", s.reference.sources},
+          {"samples", s.reference.samples},
+          {"error", json_figure(s.reference.error)},
+          {"agrees", s.reference.agrees}}}};
+    json["strategies"] = OrderedJson::array();
     for (const CostCurveReport& c : s.curves) json["strategies"].push_back(curve_json(c));
-    json["crossings"] = Json::array();
+    json["crossings"] = OrderedJson::array();
     for (const CrossingReport& c : s.crossings) json["crossings"].push_back(crossing_json(c, s));
     json["sentences"] = sentences_of(s);
     return json;
@@ -147,16 +147,16 @@ const char* name_of(Precision precision)
 
 std::string cost_json(const CostReport& report)
 {
-    Json json{{"format", "mis-cost/1"},
-              {"version", report.version},
-              {"command", report.command},
-              {"seed", report.seed},
-              {"sampler", sampler_name(report.is_sobol)},
-              {"threads", report.threads},
-              {"machine", report.machine},
-              {"instruction_set", report.instruction_set},
-              {"partial", report.partial},
-              {"scenes", Json::array()}};
+    OrderedJson json{{"format", "mis-cost/1"},
+                     {"version", report.version},
+                     {"command", report.command},
+                     {"seed", report.seed},
+                     {"sampler", sampler_name(report.is_sobol)},
+                     {"threads", report.threads},
+                     {"machine", report.machine},
+                     {"instruction_set", report.instruction_set},
+                     {"partial", report.partial},
+                     {"scenes", OrderedJson::array()}};
     for (const CostSceneReport& s : report.scenes) json["scenes"].push_back(scene_json(s));
     return json_text(json);
 }

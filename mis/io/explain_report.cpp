@@ -97,8 +97,7 @@ std::string explanation_text(const Explanation& found)
 
 void write_explanation_json(const Explanation& found, const RunHeader& run, const std::string& path)
 {
-    using Json = nlohmann::ordered_json;
-    Json effects = Json::object(), materials = Json::array();
+    OrderedJson effects = OrderedJson::object(), materials = OrderedJson::array();
     for (const EffectPlan& e : found.effects)
         effects[e.name] = {{"on", e.on},
                            {"share", e.share},
@@ -108,7 +107,7 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
     for (const MaterialUse& m : found.materials)
         materials.push_back(
             {{"name", m.name}, {"type", m.type}, {"shading_points", m.shading_points}});
-    const Json scene{
+    const OrderedJson scene{
         {"file", found.file},
         {"name", found.name},
         {"lights", found.lights},
@@ -119,7 +118,8 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
         {"spheres", found.spheres},
         {"meshes", found.meshes},
         {"triangles", found.triangles},
-        {"resolution", found.width > 0 ? Json{found.width, found.height} : Json(nullptr)},
+        {"resolution",
+         found.width > 0 ? OrderedJson{found.width, found.height} : OrderedJson(nullptr)},
         {"shading_points", found.shading_points},
         {"dark_points", found.dark_points},
         {"background_pixels", found.background_pixels},
@@ -127,9 +127,9 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
         {"probes", found.probes},
         {"materials", materials},
         {"effects", effects}};
-    const Json report{{"format", "mis-explain/1"}, {"version", MIS_VERSION},
-                      {"command", run.command},    {"seed", run.seed},
-                      {"threads", run.threads},    {"scenes", Json::array({scene})}};
+    const OrderedJson report{{"format", "mis-explain/1"}, {"version", MIS_VERSION},
+                             {"command", run.command},    {"seed", run.seed},
+                             {"threads", run.threads},    {"scenes", OrderedJson::array({scene})}};
     write_text(path, json_text(report));
 }
 

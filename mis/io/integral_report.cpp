@@ -10,9 +10,10 @@
 namespace mis {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json figure(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+OrderedJson figure(double value)
+{
+    return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
+}
 std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 double share_below_horizon(const HemisphereRun& run)
@@ -20,12 +21,13 @@ double share_below_horizon(const HemisphereRun& run)
     return static_cast<double>(run.below_horizon) / static_cast<double>(run.values.count);
 }
 
-Json exponent(const HemisphereEstimator& estimator)
+OrderedJson exponent(const HemisphereEstimator& estimator)
 {
-    return estimator.density == HemisphereDensity::blinn ? Json(estimator.exponent) : Json(nullptr);
+    return estimator.density == HemisphereDensity::blinn ? OrderedJson(estimator.exponent)
+                                                         : OrderedJson(nullptr);
 }
 
-Json exactly(const HemisphereEstimator& estimator)
+OrderedJson exactly(const HemisphereEstimator& estimator)
 {
     const ExactHemisphere e = exact(estimator);
     return {{"mean", figure(e.mean)},
@@ -36,7 +38,7 @@ Json exactly(const HemisphereEstimator& estimator)
             {"below_horizon", figure(e.below_horizon)}};
 }
 
-Json measured(const HemisphereRun& run, double integral)
+OrderedJson measured(const HemisphereRun& run, double integral)
 {
     return {{"samples", run.values.count},
             {"mean", figure(run.values.mean)},
@@ -47,20 +49,20 @@ Json measured(const HemisphereRun& run, double integral)
             {"below_horizon", share_below_horizon(run)}};
 }
 
-Json density(const IntegralReport::Entry& entry)
+OrderedJson density(const IntegralReport::Entry& entry)
 {
     const HemisphereDensityText& text = text_of(entry.estimator.density);
-    Json json{{"name", text.name},
-              {"draws", text.draws},
-              {"pdf", text.pdf},
-              {"exponent", exponent(entry.estimator)},
-              {"finite_variance", std::isfinite(exact(entry.estimator).log10_largest_value)},
-              {"exact", exactly(entry.estimator)}};
+    OrderedJson json{{"name", text.name},
+                     {"draws", text.draws},
+                     {"pdf", text.pdf},
+                     {"exponent", exponent(entry.estimator)},
+                     {"finite_variance", std::isfinite(exact(entry.estimator).log10_largest_value)},
+                     {"exact", exactly(entry.estimator)}};
     const std::uint64_t drawn = entry.running.empty() ? 0 : entry.running.back().values.count;
     const Unseen hidden = unseen(entry.estimator, drawn);
     json["unseen"] = {{"of_integral", hidden.of_integral},
                       {"of_second_moment", hidden.of_second_moment}};
-    json["running"] = Json::array();
+    json["running"] = OrderedJson::array();
     for (const HemisphereRun& run : entry.running)
         json["running"].push_back(measured(run, hemisphere_integral));
     return json;
@@ -70,11 +72,11 @@ Json density(const IntegralReport::Entry& entry)
 
 std::string integral_json(const IntegralReport& report)
 {
-    Json json{{"format", "mis-integrate/1"},    {"version", report.version},
-              {"command", report.command},      {"seed", report.seed},
-              {"partial", report.partial},      {"samples", report.samples},
-              {"integral", hemisphere_integral}};
-    json["densities"] = Json::array();
+    OrderedJson json{{"format", "mis-integrate/1"},    {"version", report.version},
+                     {"command", report.command},      {"seed", report.seed},
+                     {"partial", report.partial},      {"samples", report.samples},
+                     {"integral", hemisphere_integral}};
+    json["densities"] = OrderedJson::array();
     for (const IntegralReport::Entry& entry : report.densities)
         json["densities"].push_back(density(entry));
     // A command line may hold bytes that are not UTF-8; JSON cannot.

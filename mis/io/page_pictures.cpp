@@ -13,8 +13,6 @@ namespace mis {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using Json = OrderedJson;
-
 constexpr double most_stops = 60;  ///< between the largest value and what is kept apart from 0
 constexpr std::size_t most_listed_lights = 5000;
 
@@ -80,7 +78,7 @@ public:
     Bytes& add() { return planes_.emplace_back(size()); }
 
     /// Numbers as steps of their logarithm, in two planes; what the page needs to read them.
-    Json add_logs(const std::vector<double>& values, double step)
+    OrderedJson add_logs(const std::vector<double>& values, double step)
     {
         double most = 0;
         for (const double v : values)
@@ -102,7 +100,7 @@ public:
     }
 
     /// Adds the picture to the page's and returns its description.
-    Json finish(PagePictures& page, const std::string& id, std::size_t columns = 1) const
+    OrderedJson finish(PagePictures& page, const std::string& id, std::size_t columns = 1) const
     {
         const std::size_t rows = (planes_.size() + columns - 1) / columns;
         const std::size_t w = static_cast<std::size_t>(width_),
@@ -137,7 +135,7 @@ std::uint8_t byte_of(double share)
 }
 
 /// Luminance, and the shares that red and blue have in the sum of the channels.
-Json reference(const Blocks& blocks, PagePictures& page, const std::string& prefix)
+OrderedJson reference(const Blocks& blocks, PagePictures& page, const std::string& prefix)
 {
     std::vector<double> y(blocks.count());
     Bytes red(blocks.count()), blue(blocks.count());
@@ -152,16 +150,16 @@ Json reference(const Blocks& blocks, PagePictures& page, const std::string& pref
         blue[b] = byte_of(has_colour ? sum.z / all : 1.0 / 3);
     }
     Planes planes(blocks);
-    const Json mean = planes.add_logs(y, mean_step);
+    const OrderedJson mean = planes.add_logs(y, mean_step);
     planes.add() = std::move(red);
     planes.add() = std::move(blue);
-    Json json = planes.finish(page, prefix + "reference");
+    OrderedJson json = planes.finish(page, prefix + "reference");
     json["mean"] = mean;
     return json;
 }
 
-Json strategy(const Blocks& blocks, const StrategyMap& map, PagePictures& page,
-              const std::string& prefix)
+OrderedJson strategy(const Blocks& blocks, const StrategyMap& map, PagePictures& page,
+                     const std::string& prefix)
 {
     std::vector<double> mean(blocks.count()), variance(blocks.count());
     for (std::size_t b = 0; b < blocks.count(); ++b) {
@@ -170,8 +168,8 @@ Json strategy(const Blocks& blocks, const StrategyMap& map, PagePictures& page,
             mean_of_known(blocks, b, [&](std::size_t p) { return double(map.variance[p]); });
     }
     Planes planes(blocks);
-    const Json means = planes.add_logs(mean, mean_step),
-               variances = planes.add_logs(variance, variance_step);
+    const OrderedJson means = planes.add_logs(mean, mean_step),
+                      variances = planes.add_logs(variance, variance_step);
     if (!map.bad.empty()) {
         Bytes& bad = planes.add();
         for (std::size_t b = 0; b < blocks.count(); ++b)
@@ -179,7 +177,7 @@ Json strategy(const Blocks& blocks, const StrategyMap& map, PagePictures& page,
                 if (std::binary_search(map.bad.begin(), map.bad.end(), p)) bad[b] = 1;
             });
     }
-    Json json = planes.finish(page, prefix + std::to_string(map.strategy));
+    OrderedJson json = planes.finish(page, prefix + std::to_string(map.strategy));
     json["strategy"] = map.strategy;
     json["mean"] = means;
     json["variance"] = variances;
@@ -188,7 +186,7 @@ Json strategy(const Blocks& blocks, const StrategyMap& map, PagePictures& page,
 
 /// What a pixel is, and in two planes each one more than its winners' numbers: by variance, by
 /// efficiency; of each the strategy, then the policy.
-Json kinds_and_winners(const Blocks& blocks, PagePictures& page, const std::string& prefix)
+OrderedJson kinds_and_winners(const Blocks& blocks, PagePictures& page, const std::string& prefix)
 {
     Planes planes(blocks);
     Bytes& kind = planes.add();
@@ -208,7 +206,7 @@ Json kinds_and_winners(const Blocks& blocks, PagePictures& page, const std::stri
 
 /// The light map, no finer than the page's pixels: four planes for each of its lights, number
 /// (one more, three bytes) and share.
-Json lights(const Blocks& blocks, PagePictures& page, const std::string& prefix)
+OrderedJson lights(const Blocks& blocks, PagePictures& page, const std::string& prefix)
 {
     const LightMap& map = blocks.of.lights;
     const int stride = std::max(map.stride, blocks.side);
@@ -239,11 +237,11 @@ Json lights(const Blocks& blocks, PagePictures& page, const std::string& prefix)
             if (at(i)[k].light >= 0) used.insert(at(i)[k].light);
         }
     }
-    Json json = planes.finish(page, prefix + "lights", 4);
+    OrderedJson json = planes.finish(page, prefix + "lights", 4);
     json["stride"] = stride / static_cast<double>(blocks.side);
     json["width"] = width;
     json["height"] = height;
-    json["lights"] = Json::object();
+    json["lights"] = OrderedJson::object();
     for (const LightIndex j : used) {
         if (json["lights"].size() >= most_listed_lights) break;
         const Light& light = blocks.of.scene_lights[static_cast<std::size_t>(j)];
@@ -256,7 +254,7 @@ Json lights(const Blocks& blocks, PagePictures& page, const std::string& prefix)
     return json;
 }
 
-Json wins(const WinnerMap& map)
+OrderedJson wins(const WinnerMap& map)
 {
     return {{"strategy", map.strategy_wins}, {"policy", map.policy_wins}};
 }
@@ -279,17 +277,17 @@ PagePictures page_pictures(const Maps& maps, double most_values, const std::stri
     const Blocks blocks(
         maps, page_scale(maps.width, maps.height, maps.strategies.size() + 1, most_values));
     PagePictures page;
-    Json json{{"width", blocks.width},
-              {"height", blocks.height},
-              {"scale", blocks.side},
-              {"winner_square", maps.winner_square},
-              {"false_winners", false_winners}};
+    OrderedJson json{{"width", blocks.width},
+                     {"height", blocks.height},
+                     {"scale", blocks.side},
+                     {"winner_square", maps.winner_square},
+                     {"false_winners", false_winners}};
     json["policies"] = maps.policies;
     json["wins"] = {{"variance", wins(maps.by_variance)}, {"efficiency", wins(maps.by_efficiency)}};
     json["reference"] = reference(blocks, page, prefix);
     json["winners"] = kinds_and_winners(blocks, page, prefix);
     json["lights"] = lights(blocks, page, prefix);
-    json["strategies"] = Json::array();
+    json["strategies"] = OrderedJson::array();
     for (const StrategyMap& map : maps.strategies)
         json["strategies"].push_back(strategy(blocks, map, page, prefix));
     page.json = json.dump();

@@ -13,8 +13,6 @@ namespace mis {
 
 namespace {
 
-using Json = OrderedJson;
-
 struct Figure {
     const char* name;
     double Predicted::*value;
@@ -24,9 +22,9 @@ constexpr std::array figures{Figure{"mean", &Predicted::mean, &Predicted::mean_e
                              Figure{"variance", &Predicted::variance, &Predicted::variance_error},
                              Figure{"fourth", &Predicted::fourth, &Predicted::fourth_error}};
 
-Json probe_json(const PredictReport::Probe& probe, std::size_t strategy)
+OrderedJson probe_json(const PredictReport::Probe& probe, std::size_t strategy)
 {
-    Json json;
+    OrderedJson json;
     for (const auto& [name, value, error] : figures) {
         if (!probe.refusal.empty()) json[name] = {{"value", nullptr}, {"error", nullptr}};
         else
@@ -37,11 +35,11 @@ Json probe_json(const PredictReport::Probe& probe, std::size_t strategy)
     return json;
 }
 
-Json strategy_json(const PredictReport::Scene& scene, std::size_t i)
+OrderedJson strategy_json(const PredictReport::Scene& scene, std::size_t i)
 {
     const Strategy& s = scene.strategies[i];
-    Json json = json_identity(s);
-    json["probes"] = Json::array();
+    OrderedJson json = json_identity(s);
+    json["probes"] = OrderedJson::array();
     for (const PredictReport::Probe& probe : scene.probes)
         json["probes"].push_back(probe_json(probe, i));
     return json;
@@ -61,16 +59,16 @@ std::string shown_error(double error)
 
 std::string predict_json(const PredictReport& report)
 {
-    Json json{
+    OrderedJson json{
         {"format", "mis-predict/1"},
         {"version", report.version},
         {"command", report.command},
         {"threads", report.threads},
         {"partial", report.partial},
         {"tolerance", {{"smooth", report.tolerance.smooth}, {"jumps", report.tolerance.jumps}}},
-        {"scenes", Json::array()}};
+        {"scenes", OrderedJson::array()}};
     for (const PredictReport::Scene& scene : report.scenes) {
-        Json strategies = Json::array();
+        OrderedJson strategies = OrderedJson::array();
         for (std::size_t i = 0; i < scene.strategies.size(); ++i)
             strategies.push_back(strategy_json(scene, i));
         json["scenes"].push_back({{"file", scene.file},

@@ -11,7 +11,7 @@
 namespace mis {
 namespace {
 
-std::string place(int rank) { return rank > 0 ? fmt::format("{}", rank) : ""; }
+std::string place_cell(int rank) { return rank > 0 ? fmt::format("{}", rank) : ""; }
 
 void add(CsvRow& row, const std::string& column, const Interval& x)
 {
@@ -44,13 +44,13 @@ CsvRow row_of(const SceneReport& scene, const StrategyReport& s)
         {"status", name_of(s.status)},
         {"reason", csv_field(s.reason)},
         {"exact", s.exact ? "true" : "false"},
-        {"rank", place(s.rank)},
-        {"rank_low", place(s.rank_low)},
-        {"rank_high", place(s.rank_high)},
+        {"rank", place_cell(s.rank)},
+        {"rank_low", place_cell(s.rank_low)},
+        {"rank_high", place_cell(s.rank_high)},
         {"tied_with", csv_field(joined(s.tied_with))},
-        {"rank_by_efficiency", place(s.rank_by_efficiency)},
-        {"rank_by_efficiency_low", place(s.rank_by_efficiency_low)},
-        {"rank_by_efficiency_high", place(s.rank_by_efficiency_high)},
+        {"rank_by_efficiency", place_cell(s.rank_by_efficiency)},
+        {"rank_by_efficiency_low", place_cell(s.rank_by_efficiency_low)},
+        {"rank_by_efficiency_high", place_cell(s.rank_by_efficiency_high)},
         {"samples", fmt::format("{}", s.samples)},
         {"mean", csv_field(s.mean)},
         {"mean_se", csv_field(s.mean_se)},

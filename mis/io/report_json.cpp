@@ -8,20 +8,18 @@
 namespace mis {
 namespace {
 
-using Json = OrderedJson;
+OrderedJson place(int rank) { return rank > 0 ? OrderedJson(rank) : OrderedJson(nullptr); }
 
-Json place(int rank) { return rank > 0 ? Json(rank) : Json(nullptr); }
-
-Json probe(const PointFigures& p)
+OrderedJson probe(const PointFigures& p)
 {
     return {{"mean", json_figure(p.mean)},
             {"mean_se", json_figure(p.mean_se)},
             {"variance", json_interval(p.variance)}};
 }
 
-Json strategy(const StrategyReport& s)
+OrderedJson strategy(const StrategyReport& s)
 {
-    Json json = json_identity(s.strategy);
+    OrderedJson json = json_identity(s.strategy);
     json["status"] = name_of(s.status);
     json["reason"] = json_text_or_null(s.reason);
     json["exact"] = s.exact;
@@ -43,7 +41,7 @@ Json strategy(const StrategyReport& s)
     json["timed_rounds"] = s.timed_rounds;
     json["seconds_per_point"] = json_interval(s.seconds_per_point);
     json["seconds_per_sample"] = json_interval(s.seconds_per_sample);
-    json["stage_seconds"] = Json::object();
+    json["stage_seconds"] = OrderedJson::object();
     for (const auto& [stage, seconds] : s.stage_seconds)
         json["stage_seconds"][stage] = json_figure(seconds);
     json["rays_per_sample"] = json_figure(s.rays_per_sample);
@@ -51,14 +49,14 @@ Json strategy(const StrategyReport& s)
     json["seconds_to_1_percent"] = json_figure(s.seconds_to_1_percent.value);
     json["seconds_to_1_percent_interval"] = json_interval(s.seconds_to_1_percent);
     json["estimated_seconds"] =
-        s.status == Status::not_run ? json_figure(s.estimated_seconds) : Json(nullptr);
+        s.status == Status::not_run ? json_figure(s.estimated_seconds) : OrderedJson(nullptr);
     json["invalid_samples"] = s.invalid_samples;
-    json["probes"] = Json::array();
+    json["probes"] = OrderedJson::array();
     for (const PointFigures& p : s.probes) json["probes"].push_back(probe(p));
     return json;
 }
 
-Json pair(const PairReport& p, const SceneReport& scene)
+OrderedJson pair(const PairReport& p, const SceneReport& scene)
 {
     return {{"a", name_of(scene.strategies[p.a].strategy)},
             {"b", name_of(scene.strategies[p.b].strategy)},
@@ -71,7 +69,7 @@ Json pair(const PairReport& p, const SceneReport& scene)
             {"time_verdict", name_of(p.time_verdict)}};
 }
 
-Json effect(const EffectPlan& e)
+OrderedJson effect(const EffectPlan& e)
 {
     return {{"on", e.on},
             {"share", json_figure(e.share)},
@@ -80,32 +78,33 @@ Json effect(const EffectPlan& e)
             {"saved_seconds_per_sample", json_figure(e.saved_seconds_per_sample)}};
 }
 
-Json scene(const SceneReport& s, const Report& report)
+OrderedJson scene(const SceneReport& s, const Report& report)
 {
-    Json json{{"file", s.file},
-              {"name", s.name},
-              {"lights", s.lights},
-              {"surfaces", s.surfaces},
-              {"triangles", s.triangles},
-              {"resolution", s.width > 0 ? Json{s.width, s.height} : Json(nullptr)},
-              {"shading_points", s.shading_points},
-              {"background_pixels", s.background_pixels},
-              {"replicates", s.replicates},
-              {"epsilon", json_figure(s.epsilon)},
-              {"settled", s.settled},
-              {"partial", s.partial},
-              {"seconds", json_figure(s.seconds)}};
-    json["effects"] = Json::object();
+    OrderedJson json{
+        {"file", s.file},
+        {"name", s.name},
+        {"lights", s.lights},
+        {"surfaces", s.surfaces},
+        {"triangles", s.triangles},
+        {"resolution", s.width > 0 ? OrderedJson{s.width, s.height} : OrderedJson(nullptr)},
+        {"shading_points", s.shading_points},
+        {"background_pixels", s.background_pixels},
+        {"replicates", s.replicates},
+        {"epsilon", json_figure(s.epsilon)},
+        {"settled", s.settled},
+        {"partial", s.partial},
+        {"seconds", json_figure(s.seconds)}};
+    json["effects"] = OrderedJson::object();
     for (const EffectPlan& e : s.effects) json["effects"][e.name] = effect(e);
-    json["strategies"] = Json::array();
+    json["strategies"] = OrderedJson::array();
     for (const StrategyReport& each : s.strategies) json["strategies"].push_back(strategy(each));
-    json["pairs"] = Json::array();
+    json["pairs"] = OrderedJson::array();
     for (const PairReport& p : s.pairs) json["pairs"].push_back(pair(p, s));
     json["sentences"] = sentences_of(s, report.threads, report.margin);
     return json;
 }
 
-Json overall(const OverallReport& o)
+OrderedJson overall(const OverallReport& o)
 {
     return {{"name", o.name},
             {"rank", place(o.rank)},
@@ -136,20 +135,20 @@ const char* name_of(Verdict verdict)
 
 std::string report_json(const Report& report)
 {
-    Json json{{"format", report_format},
-              {"version", report.version},
-              {"command", report.command},
-              {"seed", report.seed},
-              {"sampler", sampler_name(report.is_sobol)},
-              {"threads", report.threads},
-              {"machine", report.machine},
-              {"instruction_set", report.instruction_set},
-              {"partial", report.partial},
-              {"margin", json_figure(report.margin)},
-              {"at", json_figure(report.at)}};
-    json["scenes"] = Json::array();
+    OrderedJson json{{"format", report_format},
+                     {"version", report.version},
+                     {"command", report.command},
+                     {"seed", report.seed},
+                     {"sampler", sampler_name(report.is_sobol)},
+                     {"threads", report.threads},
+                     {"machine", report.machine},
+                     {"instruction_set", report.instruction_set},
+                     {"partial", report.partial},
+                     {"margin", json_figure(report.margin)},
+                     {"at", json_figure(report.at)}};
+    json["scenes"] = OrderedJson::array();
     for (const SceneReport& s : report.scenes) json["scenes"].push_back(scene(s, report));
-    json["overall"] = Json::array();
+    json["overall"] = OrderedJson::array();
     for (const OverallReport& o : report.overall) json["overall"].push_back(overall(o));
     json["sentences"] = overall_sentences_of(report);
     return json_text(json);

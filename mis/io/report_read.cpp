@@ -59,7 +59,7 @@ bool truth(const JsonNode& node)
     return node.value().get<bool>();
 }
 
-template <class Read> auto list(const JsonNode& node, const Read& read)
+template <class Read> auto list_of(const JsonNode& node, const Read& read)
 {
     std::vector<decltype(read(node))> all;
     for (std::size_t i = 0; i < node.size(); ++i) all.push_back(read(node.element(i)));
@@ -110,7 +110,7 @@ Strategy strategy(const JsonNode& node)
     return s;
 }
 
-PointFigures probe(const JsonNode& node)
+PointFigures read_probe(const JsonNode& node)
 {
     return {figure(node["mean"]), size(node["mean_se"]), interval(node["variance"])};
 }
@@ -120,7 +120,7 @@ void read_ranks(const JsonNode& node, StrategyReport& s)
     s.rank = place(node["rank"]);
     s.rank_low = place(node["rank_low"]);
     s.rank_high = place(node["rank_high"]);
-    s.tied_with = list(node["tied_with"], [](const JsonNode& name) { return name.string(); });
+    s.tied_with = list_of(node["tied_with"], [](const JsonNode& name) { return name.string(); });
     s.rank_by_efficiency = place(node["rank_by_efficiency"]);
     s.rank_by_efficiency_low = place(node["rank_by_efficiency_low"]);
     s.rank_by_efficiency_high = place(node["rank_by_efficiency_high"]);
@@ -159,7 +159,7 @@ StrategyReport strategy_report(const JsonNode& node)
     s.effective_samples = size(node["effective_samples"]);
     read_times(node, s);
     s.invalid_samples = count(node["invalid_samples"]);
-    s.probes = list(node["probes"], probe);
+    s.probes = list_of(node["probes"], read_probe);
     return s;
 }
 
@@ -211,7 +211,7 @@ void read_resolution(const JsonNode& node, SceneReport& s)
     s.height = static_cast<int>(node.element(1).whole_number(1, most_int));
 }
 
-SceneReport scene(const JsonNode& node)
+SceneReport read_scene(const JsonNode& node)
 {
     SceneReport s;
     s.file = node["file"].string();
@@ -231,13 +231,13 @@ SceneReport scene(const JsonNode& node)
     effects.require_object();
     for (const auto& [name, value] : effects.value().items())
         s.effects.push_back(effect(name, effects.at(name, value)));
-    s.strategies = list(node["strategies"], strategy_report);
+    s.strategies = list_of(node["strategies"], strategy_report);
     const std::map<std::string, int> index = indices(node["strategies"], s);
-    s.pairs = list(node["pairs"], [&](const JsonNode& each) { return pair(each, index); });
+    s.pairs = list_of(node["pairs"], [&](const JsonNode& each) { return pair(each, index); });
     return s;
 }
 
-OverallReport overall(const JsonNode& node)
+OverallReport read_overall(const JsonNode& node)
 {
     return {.name = node["name"].string(),
             .rank = place(node["rank"]),
@@ -268,8 +268,8 @@ Report parse_report(std::string_view content, const std::filesystem::path& file)
     report.partial = truth(root["partial"]);
     report.margin = size(root["margin"]);
     report.at = size(root["at"]);
-    report.scenes = list(root["scenes"], scene);
-    report.overall = list(root["overall"], overall);
+    report.scenes = list_of(root["scenes"], read_scene);
+    report.overall = list_of(root["overall"], read_overall);
     return report;
 }
 

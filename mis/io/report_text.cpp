@@ -47,12 +47,21 @@ std::string places(const StrategyReport& s)
                                      : fmt::format("{}-{}", s.rank_low, s.rank_high);
 }
 
-std::string marked(const StrategyReport& s)
+/// "~": not decided against some other. "=": tied with one.
+std::string marked(const SceneReport& scene, const StrategyReport& s)
 {
-    return (s.rank_low == s.rank_high ? " " : "~") + name_of(s.strategy);
+    const auto is_open = [&](const PairReport& p) {
+        return p.verdict == Verdict::undecided &&
+               (&scene.strategies[static_cast<std::size_t>(p.a)] == &s ||
+                &scene.strategies[static_cast<std::size_t>(p.b)] == &s);
+    };
+    const char* mark = std::ranges::any_of(scene.pairs, is_open) ? "~"
+                       : s.tied_with.empty()                     ? " "
+                                                                 : "=";
+    return mark + name_of(s.strategy);
 }
 
-const char* in_words(Status status)
+const char* words_of(Status status)
 {
     return status == Status::not_run  ? "not run"
            : status == Status::biased ? "biased"
@@ -78,10 +87,10 @@ std::string table(const SceneReport& scene)
                      {"", "", "±", "±", " per", "sample", "iency", "to 1 %"}});
     for (const StrategyReport* s : in_order(scene)) {
         if (s->status != Status::ranked) {
-            table.add_remark("-", " " + name_of(s->strategy), in_words(s->status));
+            table.add_remark("-", " " + name_of(s->strategy), words_of(s->status));
             continue;
         }
-        table.add({places(*s), marked(*s), s->exact ? "exact" : short_interval(s->variance),
+        table.add({places(*s), marked(scene, *s), s->exact ? "exact" : short_interval(s->variance),
                    s->exact ? "exact" : short_interval(s->relative_variance),
                    short_number(1e9 * s->seconds_per_sample.value),
                    fmt::format("{:.2f}", s->rays_per_sample),

@@ -15,8 +15,8 @@
 namespace mis {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string found, std::string allowed,
-                       std::string remedy)
+[[noreturn]] void fail_on(const std::filesystem::path& file, std::string found, std::string allowed,
+                          std::string remedy)
 {
     throw SceneError(file.string(),
                      Problem{"", std::move(found), std::move(allowed), std::move(remedy)});
@@ -24,9 +24,9 @@ namespace {
 
 [[noreturn]] void fail_too_large(const std::filesystem::path& file, std::string_view kind)
 {
-    fail(file, fmt::format("more than {} bytes", limits::scene_file_bytes),
-         fmt::format("a {} has at most {} bytes", kind, limits::scene_file_bytes),
-         fmt::format("Split the {}.", kind));
+    fail_on(file, fmt::format("more than {} bytes", limits::scene_file_bytes),
+            fmt::format("a {} has at most {} bytes", kind, limits::scene_file_bytes),
+            fmt::format("Split the {}.", kind));
 }
 
 /// Bytes of the UTF-8 character at the start of `rest`; 0 if there is none (RFC 3629: no overlong
@@ -59,16 +59,16 @@ std::string read_text_file(const std::filesystem::path& file, std::string_view k
 {
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
-        fail(file, "a directory", fmt::format("a {} is a file", kind), "Name a file in it.");
+        fail_on(file, "a directory", fmt::format("a {} is a file", kind), "Name a file in it.");
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"),
                                                                  &std::fclose);
     if (!stream) {
         const std::error_code reason(errno, std::generic_category());
         if (reason == std::errc::no_such_file_or_directory || reason == std::errc::not_a_directory)
-            fail(file, "no such file", fmt::format("a {} is a file that exists", kind),
-                 "Check the path.");
-        fail(file, fmt::format("a file that cannot be opened ({})", reason.message()),
-             fmt::format("a {} is a readable file", kind), "Check the file's permissions.");
+            fail_on(file, "no such file", fmt::format("a {} is a file that exists", kind),
+                    "Check the path.");
+        fail_on(file, fmt::format("a file that cannot be opened ({})", reason.message()),
+                fmt::format("a {} is a readable file", kind), "Check the file's permissions.");
     }
     const std::uintmax_t size =
         std::filesystem::file_size(file, error);  // of a pipe: an error, and nothing to reserve
@@ -81,11 +81,11 @@ std::string read_text_file(const std::filesystem::path& file, std::string_view k
         if (text.size() > limits::scene_file_bytes) fail_too_large(file, kind);
     }
     if (std::ferror(stream.get()))
-        fail(file, "a file that cannot be read to its end",
-             fmt::format("a {} is a readable file", kind), "Check the disk.");
+        fail_on(file, "a file that cannot be read to its end",
+                fmt::format("a {} is a readable file", kind), "Check the disk.");
     if (text.empty())
-        fail(file, "an empty file", fmt::format("a {} has content", kind),
-             "Check that it was written in full.");
+        fail_on(file, "an empty file", fmt::format("a {} has content", kind),
+                "Check that it was written in full.");
     return text;
 }
 

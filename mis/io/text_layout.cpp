@@ -1,5 +1,7 @@
 #include "mis/io/text_layout.h"
 
+#include "mis/compare/words.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,6 +35,23 @@ std::vector<std::string> words_of(const std::string& text)
 
 }  // namespace
 
+namespace {
+
+/// The mark, if `text` begins with one that turns the direction of writing (Unicode Standard Annex
+/// 9, Bidi_Control); else 0. In UTF-8 each is three bytes.
+unsigned direction_mark(std::string_view text)
+{
+    if (text.size() < 3 || text[0] != '\xE2') return 0;
+    const unsigned second = static_cast<unsigned char>(text[1]),
+                   third = static_cast<unsigned char>(text[2]);
+    const unsigned code = 0x2000 + ((second & 0x3F) << 6) + (third & 0x3F);
+    const bool is_mark = code == 0x200E || code == 0x200F || (code >= 0x202A && code <= 0x202E) ||
+                         (code >= 0x2066 && code <= 0x2069);
+    return is_mark ? code : 0;
+}
+
+}  // namespace
+
 std::string printable(std::string_view text)
 {
     std::string safe;
@@ -40,7 +59,9 @@ std::string printable(std::string_view text)
         const auto byte = static_cast<unsigned char>(text[i]);
         const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
         const bool is_c1 = byte == 0xC2 && next >= 0x80 && next < 0xA0;
-        if (is_c1) safe += fmt::format("\\u{:04x}", next), ++i;
+        if (const unsigned mark = direction_mark(text.substr(i)); mark != 0)
+            safe += fmt::format("\\u{:04x}", mark), i += 2;
+        else if (is_c1) safe += fmt::format("\\u{:04x}", next), ++i;
         else if (byte < 0x20 || byte == 0x7F) safe += fmt::format("\\u{:04x}", byte);
         else safe += text[i];
     }
@@ -78,6 +99,7 @@ std::string short_interval(const Interval& x)
     if (!(x.value > 0)) return short_number(x.value);
     const double error = std::max(x.high - x.value, x.value - x.low) / x.value;
     if (!std::isfinite(error) || error <= 0) return short_number(x.value);
+    if (error > 0.5) return number(x.low, 2) + "-" + number(x.high, 2);
     return fmt::format("{}±{:.0f}%", short_number(x.value), std::ceil(100 * error - 1e-9));
 }
 
@@ -89,7 +111,7 @@ std::string short_duration(double seconds)
     if (seconds >= 99.5) return fmt::format("{:.2g}m", seconds / 60);
     if (seconds >= 0.0995 || seconds <= 0) return fmt::format("{:.2g}s", seconds);
     if (seconds >= 0.995e-4) return fmt::format("{:.2g}ms", 1e3 * seconds);
-    return fmt::format("{:.2g}us", 1e6 * seconds);
+    return fmt::format("{:.2g}µs", 1e6 * seconds);
 }
 
 std::string many(std::size_t count, std::string_view what)

@@ -29,7 +29,7 @@ std::string wrapped(const std::string& text, std::size_t indent = 2,
 std::string short_number(double value);
 
 /// "0.0123 ±2%": the larger half of the interval, rounded up to a percent; "0" where exact, no
-/// error where none is known.
+/// error where none is known; its ends, "690-250000", where the half is more than half the value.
 std::string short_interval(const Interval& x);
 
 /// "0.83s", "12ms", "3.1m", "2.5h".

@@ -12,13 +12,13 @@ namespace {
 constexpr auto group_size = static_cast<std::uint32_t>(LightTree::width);
 
 /// What it takes to split: a centre in float, relative to the tree's origin.
-struct Item {
+struct TreeItem {
     std::array<float, 3> center;
     LightIndex light;
 };
 
 /// A range of the items, a whole number of groups but for the last one.
-struct Range {
+struct TreeRange {
     std::uint32_t first, end;
     std::uint32_t groups() const { return (end - first + group_size - 1) / group_size; }
 };
@@ -42,7 +42,7 @@ struct LightTree::Builder {
     LightTree& tree;
     const Lights& all;
     double total_power = 0;
-    LargeVector<Item> items = {};
+    LargeVector<TreeItem> items = {};
 
     void run()
     {
@@ -55,25 +55,25 @@ struct LightTree::Builder {
             total_power += luminance_radius(all[j]) * all[j].radius;
         }
         tree.slot_of_.resize(count);
-        tree.lights_.resize(Range{0, count}.groups());
+        tree.lights_.resize(TreeRange{0, count}.groups());
         tree.nodes_.emplace_back();
         build(0, {0, count});
         const Description whole = described({0, count});
         tree.middle_ = whole.mean, tree.reach_ = whole.reach;
     }
 
-    const Light& light_of(const Item& item) const
+    const Light& light_of(const TreeItem& item) const
     {
         return all[static_cast<std::size_t>(item.light)];
     }
 
     /// Fills the group `self` with parts of the range: as many as hold a power of 16 of groups
     /// each, so that every level below is as full as can be.
-    void build(std::size_t self, const Range& range)
+    void build(std::size_t self, const TreeRange& range)
     {
         std::uint32_t capacity = 1;  // groups of lights in one part
         while (capacity * group_size < range.groups()) capacity *= group_size;
-        std::array<Range, width> parts;  // NOLINT: split fills it
+        std::array<TreeRange, width> parts;  // NOLINT: split fills it
         std::uint32_t count = 0;
         split(range, (range.groups() + capacity - 1) / capacity, parts, count);
         NodeGroup node{};
@@ -94,7 +94,7 @@ struct LightTree::Builder {
         tree.nodes_[self] = node;
     }
 
-    void split(const Range& range, std::uint32_t parts, std::array<Range, width>& found,
+    void split(const TreeRange& range, std::uint32_t parts, std::array<TreeRange, width>& found,
                std::uint32_t& count)
     {
         if (parts == 1) {
@@ -107,14 +107,15 @@ struct LightTree::Builder {
         const std::uint32_t middle = range.first + groups * group_size;
         const std::size_t axis = widest_axis(range);
         const auto at = [&](std::uint32_t i) { return items.begin() + i; };
-        std::nth_element(
-            at(range.first), at(middle), at(range.end),
-            [axis](const Item& a, const Item& b) { return a.center[axis] < b.center[axis]; });
+        std::nth_element(at(range.first), at(middle), at(range.end),
+                         [axis](const TreeItem& a, const TreeItem& b) {
+                             return a.center[axis] < b.center[axis];
+                         });
         split({range.first, middle}, left, found, count);
         split({middle, range.end}, parts - left, found, count);
     }
 
-    std::size_t widest_axis(const Range& range) const
+    std::size_t widest_axis(const TreeRange& range) const
     {
         std::array<double, 3> sum{}, sum2{};
         for (std::uint32_t i = range.first; i < range.end; ++i)
@@ -130,7 +131,7 @@ struct LightTree::Builder {
     }
 
     /// visit(centre, radius, share of the power) for the lights of a range.
-    template <class Visit> void for_each_light(const Range& range, const Visit& visit) const
+    template <class Visit> void for_each_light(const TreeRange& range, const Visit& visit) const
     {
         for (std::uint32_t i = range.first; i < range.end; ++i) {
             const LightGroup& group = tree.lights_[i / group_size];
@@ -147,7 +148,7 @@ struct LightTree::Builder {
     };
 
     /// A range whose lights are in their groups already.
-    Description described(const Range& range) const
+    Description described(const TreeRange& range) const
     {
         double power = 0;
         Vec3<double> sum{0}, plain{0};
@@ -192,12 +193,12 @@ struct LightTree::Builder {
         }
     }
 
-    void fill_lights(std::uint32_t number, const Range& range)
+    void fill_lights(std::uint32_t number, const TreeRange& range)
     {
         LightGroup& group = tree.lights_[number];
         for (std::uint32_t k = 0; k < group_size; ++k) {
             const bool is_there = range.first + k < range.end;
-            const Item& item = items[is_there ? range.first + k : range.first];
+            const TreeItem& item = items[is_there ? range.first + k : range.first];
             const Light& light = light_of(item);
             const Vec3<double>& c = light.center;
             group.x[k] = c.x, group.y[k] = c.y, group.z[k] = c.z;

@@ -8,7 +8,7 @@ namespace mis {
 class UniformPolicy {
 public:
     static constexpr std::string_view name = "uniform";
-    static constexpr std::string_view summary = "every light alike, 1/M";
+    static constexpr std::string_view summary = "alike from all lights, 1/M";
     static constexpr bool draws_every_light = false, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
     static bool keeps_tables(const Light&, const Light&) { return true; }

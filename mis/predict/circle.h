@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/math/frame.h"
+#include "mis/math/limits.h"
 
 #include <array>
 #include <cmath>
@@ -64,7 +65,6 @@ struct Circle {
 
     Chord chord(double phi) const
     {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
         const double b = bx * cos_phi + by * sin_phi;
         const double past =

@@ -108,7 +108,7 @@ void Evaluator::look(const Vec3<double>& around, int nearest, Nodes& nodes) cons
     const Polar& polar = patch_->polar();
     for (std::size_t i = 0; i < Rule::nodes; ++i) {
         const Vec3<double> wi = polar.pole + polar.offset(around, nodes.theta[i]);
-        const Reflected r = response_->at(wi);
+        const ResponseValue r = response_->at(wi);
         nodes.value[i] = luminance(r.f * radiance) * r.cos_theta;
         nodes.bsdf_pdf[i] = response_->draws() ? r.pdf : 0;
         nodes.cos_theta[i] = r.cos_theta;
@@ -208,7 +208,7 @@ double Evaluator::ratio(const Vec3<double>& around, double theta, const Stretch&
                         const Meridian& meridian) const
 {
     const Polar& polar = patch_->polar();
-    const Reflected r = response_->at(polar.pole + polar.offset(around, theta));
+    const ResponseValue r = response_->at(polar.pole + polar.offset(around, theta));
     const auto [policy, technique] = plan_->densities[static_cast<std::size_t>(group_->density)];
     double light = 0;
     for (std::size_t a = 0; a < stretch.along; ++a) {

@@ -85,7 +85,7 @@ Lobe lobe_of(const Response& response)
         Profile f, pdf;
         for (int k = 0; k <= halvings; ++k) {
             const double angle = k < halvings ? std::ldexp(1.0, -k) : 0;
-            const Reflected r = response.at(lobe.direction + polar.offset(around, angle));
+            const ResponseValue r = response.at(lobe.direction + polar.offset(around, angle));
             f[static_cast<std::size_t>(k)] = luminance(r.f),
             pdf[static_cast<std::size_t>(k)] = r.pdf;
         }
@@ -94,9 +94,9 @@ Lobe lobe_of(const Response& response)
     const std::vector<double> angles =
         angles_of_incidence(std::atan2(-dot(t, wo), dot(n, wo)), lobe.width);
     add_turns(
-        response, angles, [](const Reflected& r) { return r.pdf; }, lobe.turns);
+        response, angles, [](const ResponseValue& r) { return r.pdf; }, lobe.turns);
     add_turns(
-        response, angles, [](const Reflected& r) { return r.pdf / r.cos_theta; }, lobe.turns);
+        response, angles, [](const ResponseValue& r) { return r.pdf / r.cos_theta; }, lobe.turns);
     return lobe;
 }
 

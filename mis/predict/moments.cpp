@@ -1,7 +1,8 @@
 #include "mis/predict/moments.h"
 
+#include "mis/math/limits.h"
+
 #include <cmath>
-#include <limits>
 
 namespace mis {
 
@@ -54,7 +55,6 @@ DrawMoments mixture(const DrawMoments& a, const DrawMoments& b)
 /// What is no number came of a range left upwards: no double holds it.
 void keep_in_range(Bounded& b)
 {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     if (!std::isfinite(b.value)) b = {infinity, infinity};
     else if (!std::isfinite(b.error)) b.error = infinity;
 }

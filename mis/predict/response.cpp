@@ -20,7 +20,7 @@ Response::Response(const Material& material, const Vec3<double>& n, const Vec3<d
     if (!evaluate_) throw std::out_of_range("no BSDF is called " + material.type);
 }
 
-Reflected Response::at(const Vec3<double>& wi) const
+ResponseValue Response::at(const Vec3<double>& wi) const
 {
     const Vec3<double> local = frame_.to_local(wi);
     if (!(local.z > 0)) return {};

@@ -10,7 +10,7 @@
 namespace mis {
 
 /// What the surface does with light from one direction; all 0 below the horizon.
-struct Reflected {
+struct ResponseValue {
     Vec3<double> f{0};  ///< sr⁻¹, RGB; without the cosine
     double pdf = 0;     ///< of the BSDF's own draws, per steradian
     double cos_theta = 0;
@@ -22,7 +22,7 @@ public:
     Response(const Material& material, const Vec3<double>& n, const Vec3<double>& wo);
 
     /// wi: unit, world.
-    Reflected at(const Vec3<double>& wi) const;
+    ResponseValue at(const Vec3<double>& wi) const;
     bool draws() const { return draws_; }  ///< false where all is black
     const Vec3<double>& normal() const { return frame_.z; }
     const Vec3<double>& outgoing() const { return wo_; }

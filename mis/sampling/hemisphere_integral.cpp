@@ -1,19 +1,18 @@
 #include "mis/sampling/hemisphere_integral.h"
 
 #include "mis/math/gauss_legendre.h"
+#include "mis/math/limits.h"
 #include "mis/math/stable.h"
 #include "mis/sampling/random.h"
 #include "mis/sampling/warp.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mis {
 namespace {
 
 constexpr double pi1 = pi<double>;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double ln_sqrt2 = 0.34657359027997265471;
 
 HemisphereDraw draw_angles(const Vec2<double>& u)

@@ -33,7 +33,7 @@ MaybeProblem first_problem_among(const Items& items, const Rule& rule)
     return {};
 }
 
-MaybeProblem below(const std::string& pointer, MaybeProblem problem)
+MaybeProblem placed_below(const std::string& pointer, MaybeProblem problem)
 {
     if (problem) problem->pointer.insert(0, pointer);
     return problem;
@@ -383,7 +383,7 @@ MaybeProblem find_light_problem(const Vec3<double>& center, double radius, Emiss
 MaybeProblem find_problem(const Scene& scene)
 {
     const auto indexed = [](const char* list, std::size_t i, MaybeProblem problem) {
-        return problem ? below(list + to_text(i), std::move(problem)) : MaybeProblem{};
+        return problem ? placed_below(list + to_text(i), std::move(problem)) : MaybeProblem{};
     };
     return first_problem(
         [&] { return check_camera(scene); },
@@ -394,8 +394,8 @@ MaybeProblem find_problem(const Scene& scene)
         },
         [&] {
             return first_problem_among(scene.materials, [](const Material& material, std::size_t) {
-                return below("/materials/" + pointer_token(material.name),
-                             check_material(material));
+                return placed_below("/materials/" + pointer_token(material.name),
+                                    check_material(material));
             });
         },
         [&] {

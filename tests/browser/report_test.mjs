@@ -63,6 +63,7 @@ const tests = {
       close_to(seconds_of(row.cells.time), s.seconds_to_1_percent, "time to 1 %");
     }
     assert.ok(ranked >= 3);
+    assert.ok(await page.value('document.querySelector("#table table").scrollWidth <= 1.25 * document.querySelector("#table").clientWidth'), "ties do not push the figures out of sight");
     const spaces = (s) => s.replace(/\s+/g, " ").trim();
     assert.equal(spaces(await text("#verdict")), spaces(scene.sentences[0]));
     const checks = await page.value(`[...document.querySelectorAll("#checks tbody tr")].map((r) => [r.dataset.strategy, r.cells[3].innerText])`);
@@ -71,12 +72,12 @@ const tests = {
 
   async "the table sorts by each heading"() {
     const column = (k) => page.value(`[...document.querySelectorAll('#table tbody tr [data-figure="${k}"]')].map((c) => c.innerText)`);
-    for (const [text_of_head, key] of [["Variance", "variance"], ["Rays", "rays"], ["Relative", "relative"]]) {
+    for (const [text_of_head, key] of [["Variance", "variance"], ["Rays/sample", "rays"], ["Rel. variance", "relative"]]) {
       await page.value(`[...document.querySelectorAll("#table th button")].find((b) => b.textContent === "${text_of_head}").click()`);
       const up = (await column(key)).map(Number.parseFloat);
       assert.deepEqual(up, up.slice().sort((a, b) => a - b), `${text_of_head} rises`);
       await page.value(`document.activeElement.click()`);
-      assert.equal(await page.value(`document.querySelector('#table th[aria-sort="descending"]').innerText.trim().split(" ")[0]`), text_of_head);
+      assert.equal(await page.value(`document.querySelector('#table th[aria-sort="descending"]').innerText.replace(/[▲▼]/g, "").trim()`), text_of_head);
       const down = (await column(key)).map(Number.parseFloat);
       assert.deepEqual(down, up.slice().sort((a, b) => b - a), `${text_of_head} falls`);
     }
@@ -116,6 +117,24 @@ const tests = {
       const valid = await page.value(`(() => { const d = new DOMParser().parseFromString(window.saved, "image/svg+xml"); return !d.querySelector("parsererror") && d.querySelectorAll("path, rect").length; })()`);
       assert.ok(valid > 5, `${id} as SVG`);
     }
+  },
+
+  async "a strategy's bar of stages is what its sample costs"(report) {
+    for (const s of report.json.scenes[0].strategies.filter((t) => Object.keys(t.stage_seconds).length > 0)) {
+      const tip = await page.value(`(() => { const t = document.querySelector('#plot-stages .target[data-target="${s.name}"]'); t.dispatchEvent(new MouseEvent("mousemove")); return document.querySelector("#tip").innerText; })()`);
+      const stages = Object.entries(s.stage_seconds).reduce((sum, [name, seconds]) => sum + (name === "prepare" ? 0 : seconds), 0);
+      close_to(tip.match(/: ([\d.e-]+) ns per sample/)[1], 1e9 * (Math.max(stages, s.seconds_per_sample.value) + s.seconds_per_point.value / report.json.at), s.name);
+    }
+    await page.value("hide_tip()");
+  },
+
+  async "marks stand out from both grounds by 3 to 1"() {
+    const least = await page.value(`(() => {
+      const light = (c) => { const k = d3.rgb(c), of = (v) => v / 255 <= .04045 ? v / 255 / 12.92 : ((v / 255 + .055) / 1.055) ** 2.4; return .2126 * of(k.r) + .7152 * of(k.g) + .0722 * of(k.b) + .05; };
+      const colours = [...Object.values(policy_colours), ...more_colours, no_policy_colour, ...stage_groups.map((g) => g.colour)];
+      return Math.min(...colours.flatMap((c) => ["#ffffff", "#14171a"].map((ground) => Math.max(light(c), light(ground)) / Math.min(light(c), light(ground)))));
+    })()`);
+    assert.ok(least >= 3, `${least} to 1`);
   },
 
   async "the curves cross 1 % at the report's time"(report) {

@@ -39,39 +39,39 @@ Moments two_values(double n, double mean, double variance)
             .m4 = n * variance * variance};
 }
 
-constexpr Strictness strictness{1e-9, 1e-6};
+constexpr Strictness usual_strictness{1e-9, 1e-6};
 
 TEST(Disagreement, IsFoundInAMeanADeviationAndWhatIsNoNumber)
 {
     const Predicted p{.mean = 1, .variance = 0.01, .fourth = 1e-4};
     constexpr double n = 1e4;
-    EXPECT_EQ(disagreement(two_values(n, 1, 0.01), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(n, 1.01, 0.01), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(n, 0.99, 0.01), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(n, 1, 0.0103), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(n, 1, 0.0097), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(n, std::nan(""), 0.01), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(n, 1, std::nan("")), p, strictness), "");
+    EXPECT_EQ(disagreement(two_values(n, 1, 0.01), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(n, 1.01, 0.01), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(n, 0.99, 0.01), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(n, 1, 0.0103), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(n, 1, 0.0097), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(n, std::nan(""), 0.01), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(n, 1, std::nan("")), p, usual_strictness), "");
 }
 
 TEST(Disagreement, OfAConstantIsMoreThanRounding)
 {
     const Predicted p{.mean = 1, .variance = 0, .variance_error = 1e-20};
-    EXPECT_EQ(disagreement(two_values(100, 1 + 1e-6, 1e-13), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(100, 1 + 3e-6, 1e-13), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(100, 1, 1e-10), p, strictness), "");
+    EXPECT_EQ(disagreement(two_values(100, 1 + 1e-6, 1e-13), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(100, 1 + 3e-6, 1e-13), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(100, 1, 1e-10), p, usual_strictness), "");
     const Predicted unknown{.mean = 1, .variance = 0, .variance_error = 1e-3};
-    EXPECT_NE(disagreement(two_values(100, 1, 0), unknown, strictness), "");
+    EXPECT_NE(disagreement(two_values(100, 1, 0), unknown, usual_strictness), "");
 }
 
 TEST(Disagreement, OfRareSamplesIsFoundByWhatHoldsForAnyDistribution)
 {
     // One of 1e6 counts, and is worth 1e6.
     const Predicted p{.mean = 1, .variance = 1e6, .fourth = 1e18};
-    EXPECT_EQ(disagreement(two_values(1e4, 0, 0), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(1e8, 0, 0), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(1e4, 1e6, 0), p, strictness), "");
-    EXPECT_NE(disagreement(two_values(1e4, -1e3, 0), p, strictness), "");
+    EXPECT_EQ(disagreement(two_values(1e4, 0, 0), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(1e8, 0, 0), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(1e4, 1e6, 0), p, usual_strictness), "");
+    EXPECT_NE(disagreement(two_values(1e4, -1e3, 0), p, usual_strictness), "");
 }
 
 }  // namespace

@@ -165,6 +165,15 @@ TEST(CommandLine, ComparesTwoReports)
     EXPECT_EQ(failing.exit, 1) << failing.error;
     EXPECT_EQ(nlohmann::json::parse(failing.out)["regression"], true);
     EXPECT_EQ(mis_with(to_worse).exit, 0);
+
+    auto elsewhere = nlohmann::json::parse(text_of(old_file));
+    elsewhere["scenes"][0]["name"] = elsewhere["scenes"][0]["file"] = "another";
+    const std::string other_file = folder.write("other.json", elsewhere.dump()).string(),
+                      to_other = "compare '" + old_file + "' '" + other_file + "'";
+    EXPECT_EQ(mis_with(to_other).exit, 0);
+    const Outcome nothing = mis_with(to_other + " --fail-on-regression 20");
+    EXPECT_EQ(nothing.exit, 2);
+    EXPECT_NE(nothing.error.find("found no figure that is in both"), std::string::npos);
     EXPECT_EQ(mis_with(to_worse + "--fail-on-regression 200").exit, 0);
     EXPECT_EQ(
         mis_with("compare '" + worse_file + "' '" + old_file + "' --fail-on-regression 0").exit, 0);

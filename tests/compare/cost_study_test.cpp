@@ -16,7 +16,7 @@ namespace {
 
 const AnyExecutor serial = any_executor(SerialExecutor{});
 
-std::vector<CostChoice> named(std::initializer_list<const char*> names)
+std::vector<CostChoice> choices_named(std::initializer_list<const char*> names)
 {
     std::vector<CostChoice> choices;
     for (const char* name : names) choices.push_back({parse_strategy(name)});
@@ -32,7 +32,7 @@ Scene two_probes()
 }
 
 /// A floor, with a ball on it, under the same lights: 16 x 12 pixels.
-Scene small_picture()
+Scene picture_to_cost()
 {
     Scene scene = probe_under(three_lights_apart(), grey_floor());
     scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {16, 12}};
@@ -41,7 +41,7 @@ Scene small_picture()
     return scene;
 }
 
-CostSceneReport study_of(const Scene& scene, const std::vector<CostChoice>& choices,
+CostSceneReport costs_of(const Scene& scene, const std::vector<CostChoice>& choices,
                          const CostOptions& options, const AnyExecutor& executor = serial)
 {
     const AnalyticTracer tracer(scene);
@@ -53,8 +53,8 @@ TEST(CostStudy, FindsTheVarianceThatQuadratureSays)
 {
     const Scene scene = two_probes();
     const std::vector<CostChoice> choices =
-        named({"uniform/power", "power/light", "solid-angle/balance", "uniform/power@4+1"});
-    const CostSceneReport report = study_of(scene, choices, {.spp = 32});
+        choices_named({"uniform/power", "power/light", "solid-angle/balance", "uniform/power@4+1"});
+    const CostSceneReport report = costs_of(scene, choices, {.spp = 32});
     EXPECT_TRUE(report.reference.exact);
     EXPECT_LT(report.reference.error, 1e-6);
     EXPECT_GT(report.copies, 1U);
@@ -81,8 +81,9 @@ TEST(CostStudy, FindsTheVarianceThatQuadratureSays)
 TEST(CostStudy, FindsTheGainOfSobolSequences)
 {
     const Scene scene = two_probes();
-    const std::vector<CostChoice> choices = named({"uniform/light", "power/power", "all/light"});
-    const CostSceneReport report = study_of(scene, choices, {.is_sobol = true, .spp = 64});
+    const std::vector<CostChoice> choices =
+        choices_named({"uniform/light", "power/power", "all/light"});
+    const CostSceneReport report = costs_of(scene, choices, {.is_sobol = true, .spp = 64});
     ASSERT_TRUE(report.reference.exact);
     EXPECT_TRUE(report.is_sobol);
     for (std::size_t c = 0; c < choices.size(); ++c) {
@@ -105,7 +106,7 @@ TEST(CostStudy, FindsTheGainOfSobolSequences)
         EXPECT_GT(report.curves[c].points.back().gain.low, 3);
         EXPECT_NEAR(report.curves[c].points.front().gain.value, 1, 1e-9);  // of one sample
     }
-    const CostSceneReport independent = study_of(scene, choices, {.spp = 4});
+    const CostSceneReport independent = costs_of(scene, choices, {.spp = 4});
     EXPECT_TRUE(std::isnan(independent.curves[0].points[2].gain.value));
 }
 
@@ -140,13 +141,13 @@ TEST(CostStudy, MeasuresTheSameAgainstAPooledReferenceAsAgainstTheExactOne)
 
 TEST(CostStudy, HasTheSameFiguresOnAnyNumberOfThreads)
 {
-    const Scene scene = small_picture();
+    const Scene scene = picture_to_cost();
     std::vector<CostChoice> choices =
-        named({"uniform/power", "power/light", "solid-angle/balance"});
+        choices_named({"uniform/power", "power/light", "solid-angle/balance"});
     choices.push_back({choices[0].strategy, Precision::in_double});
-    const CostSceneReport one = study_of(scene, choices, {.spp = 8});
+    const CostSceneReport one = costs_of(scene, choices, {.spp = 8});
     const CostSceneReport three =
-        study_of(scene, choices, {.spp = 8}, any_executor(TbbExecutor(3)));
+        costs_of(scene, choices, {.spp = 8}, any_executor(TbbExecutor(3)));
     EXPECT_FALSE(one.reference.exact);
     for (std::size_t c = 0; c < choices.size(); ++c) {
         ASSERT_EQ(one.curves[c].points.size(), 4U);
@@ -163,8 +164,8 @@ TEST(CostStudy, HasTheSameFiguresOnAnyNumberOfThreads)
 
 TEST(CostStudy, AddsTheBestInDoubleAndWithFourLightDraws)
 {
-    const CostSceneReport report =
-        study_of(small_picture(), named({"uniform/power"}), {.spp = 8, .adds_twins = true});
+    const CostSceneReport report = costs_of(picture_to_cost(), choices_named({"uniform/power"}),
+                                            {.spp = 8, .adds_twins = true});
     ASSERT_EQ(report.curves.size(), 3U);
     EXPECT_EQ(name_of(report.curves[1]), "uniform/power in double");
     EXPECT_EQ(name_of(report.curves[2]), "uniform/power@4+1");
@@ -192,7 +193,8 @@ TEST(CostStudy, EndsWithWhatThereIsWhenStopped)
     options.progress = [&](double, const std::string& doing) {
         stop = stop || doing.rfind("8 samples", 0) == 0;
     };
-    const CostSceneReport report = study_of(small_picture(), named({"uniform/power"}), options);
+    const CostSceneReport report =
+        costs_of(picture_to_cost(), choices_named({"uniform/power"}), options);
     EXPECT_TRUE(report.partial);
     EXPECT_EQ(report.curves[0].points.size(), 3U);  // 1, 2 and 4
 }
@@ -201,7 +203,7 @@ TEST(CostStudy, SaysSoWhereNothingIsLit)
 {
     Scene scene = two_probes();
     for (Probe& probe : scene.probes) probe.outgoing = -probe.outgoing;  // seen from below
-    const CostSceneReport report = study_of(scene, named({"uniform/power"}), {.spp = 4});
+    const CostSceneReport report = costs_of(scene, choices_named({"uniform/power"}), {.spp = 4});
     ASSERT_EQ(report.curves.size(), 1U);
     EXPECT_NE(report.curves[0].reason.find("no point can be lit"), std::string::npos);
 }

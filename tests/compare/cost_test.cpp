@@ -10,7 +10,7 @@
 namespace mis {
 namespace {
 
-constexpr CostGround ground{.points = 1000, .threads = 2, .reference = {}};
+constexpr CostGround ground_of_curve{.points = 1000, .threads = 2, .reference = {}};
 
 bool holds(const Interval& x, double value) { return x.low <= value && value <= x.high; }
 
@@ -23,7 +23,7 @@ const TimeToError& time_to(const CostCurveReport& curve, double error)
 
 TEST(Cost, FindsTheSlopeOfMinusOneHalf)
 {
-    const CostCurveReport curve = curve_report(measured({}), ground);
+    const CostCurveReport curve = curve_report(measured({}), ground_of_curve);
     EXPECT_NEAR(curve.slope.value, -0.5, 0.01);
     EXPECT_TRUE(holds(curve.slope, -0.5));
     EXPECT_TRUE(curve.fits);
@@ -36,7 +36,8 @@ TEST(Cost, SlopeIntervalsMissOneTimeInTwenty)
     constexpr int runs = 400;
     int misses = 0, false_alarms = 0;
     for (std::uint64_t seed = 1; seed <= runs; ++seed) {
-        const CostCurveReport curve = curve_report(measured({.noise = 0.1, .seed = seed}), ground);
+        const CostCurveReport curve =
+            curve_report(measured({.noise = 0.1, .seed = seed}), ground_of_curve);
         misses += holds(curve.slope, -0.5) ? 0 : 1;
         false_alarms += curve.fits ? 0 : 1;
     }
@@ -47,7 +48,7 @@ TEST(Cost, SlopeIntervalsMissOneTimeInTwenty)
 
 TEST(Cost, SaysThatABiasedStrategyFallsTooSlowlyAndExtrapolatesNothingOfIt)
 {
-    const CostCurveReport curve = curve_report(measured({.bias = 0.02}), ground);
+    const CostCurveReport curve = curve_report(measured({.bias = 0.02}), ground_of_curve);
     EXPECT_GT(curve.slope.low, -0.5);
     EXPECT_FALSE(curve.fits);
     EXPECT_EQ(time_to(curve, 0.05).reach, Reach::measured);
@@ -59,7 +60,7 @@ TEST(Cost, MeasuresTimesBetweenLevelsAndMarksThoseBeyond)
 {
     // error² = 0.01/n up to 64 samples: down to 1.25 %.
     const SyntheticCurve c{.prepare = 3e-7};
-    const CostCurveReport curve = curve_report(measured(c), ground);
+    const CostCurveReport curve = curve_report(measured(c), ground_of_curve);
     const auto expected = [&](double error) {
         return 500 * (c.prepare + c.variance / (error * error) * c.per_sample);
     };
@@ -78,7 +79,7 @@ TEST(Cost, MeasuresTimesBetweenLevelsAndMarksThoseBeyond)
 TEST(Cost, NeedsAtLeastOneSample)
 {
     const SyntheticCurve c{.variance = 1e-4, .prepare = 3e-7};  // 1 % at once
-    const TimeToError at_once = time_to(curve_report(measured(c), ground), 0.1);
+    const TimeToError at_once = time_to(curve_report(measured(c), ground_of_curve), 0.1);
     EXPECT_EQ(at_once.reach, Reach::measured);
     EXPECT_EQ(at_once.samples, 1);
     EXPECT_NEAR(at_once.seconds.value, 500 * 4e-7, 500 * 4e-9);
@@ -104,7 +105,7 @@ TEST(Cost, TakesTheReferencesErrorOffAndTrustsNothingBelowIt)
 
 TEST(Cost, FitsNothingToWhatRareSamplesCarry)
 {
-    const CostCurveReport curve = curve_report(measured({.carriers = 10}), ground);
+    const CostCurveReport curve = curve_report(measured({.carriers = 10}), ground_of_curve);
     for (const CostPoint& point : curve.points) EXPECT_EQ(point.trust, Trust::rare_samples);
     EXPECT_TRUE(std::isnan(curve.slope.value));
     for (const TimeToError& t : curve.times) EXPECT_EQ(t.reach, Reach::unknown);
@@ -123,8 +124,8 @@ TEST(Cost, SplitsTimeIntoWhatAPointSharesAndSamples)
 
 TEST(Cost, IsSteeperInTimeWherePreparationIsLong)
 {
-    const CostCurveReport none = curve_report(measured({}), ground),
-                          much = curve_report(measured({.prepare = 1e-6}), ground);
+    const CostCurveReport none = curve_report(measured({}), ground_of_curve),
+                          much = curve_report(measured({.prepare = 1e-6}), ground_of_curve);
     EXPECT_NEAR(none.slope_in_time.value, -0.5, 0.02);
     EXPECT_LT(much.slope_in_time.high, -0.55);
     EXPECT_NEAR(much.slope.value, -0.5, 0.01);
@@ -146,7 +147,7 @@ TEST(Cost, EndsOnceTheSmallestErrorIsPassedOrTheReferenceTellsNoMore)
 TEST(Cost, HasNoFiguresWithoutLevels)
 {
     CostMeasurements none{.strategy = parse_strategy("brdf"), .reason = "past the budget"};
-    const CostCurveReport curve = curve_report(none, ground);
+    const CostCurveReport curve = curve_report(none, ground_of_curve);
     EXPECT_TRUE(curve.points.empty());
     EXPECT_TRUE(std::isnan(curve.seconds_per_sample.value));
     for (const TimeToError& t : curve.times) EXPECT_EQ(t.reach, Reach::unknown);

@@ -11,7 +11,7 @@
 namespace mis {
 namespace {
 
-SceneReport scene_of(std::vector<StrategyMeasurements> strategies)
+SceneReport scene_with(std::vector<StrategyMeasurements> strategies)
 {
     Ranking ranking = rank({.points = 64, .strategies = std::move(strategies)}, {});
     SceneReport scene;
@@ -22,13 +22,13 @@ SceneReport scene_of(std::vector<StrategyMeasurements> strategies)
 
 SceneReport bright()
 {
-    return scene_of({simulate("a", uniform_samples(0.1)), simulate("b", uniform_samples(0.2)),
-                     simulate("c", uniform_samples(0.3))});
+    return scene_with({simulate("a", uniform_samples(0.1)), simulate("b", uniform_samples(0.2)),
+                       simulate("c", uniform_samples(0.3))});
 }
 SceneReport dark()
 {
-    return scene_of({simulate("a", uniform_samples(0.08)), simulate("b", uniform_samples(0.01)),
-                     simulate("c", rare_samples(1e-4))});
+    return scene_with({simulate("a", uniform_samples(0.08)), simulate("b", uniform_samples(0.01)),
+                       simulate("c", rare_samples(1e-4))});
 }
 
 TEST(Overall, IsTheGeometricMeanOfTheRatiosToTheBestOfEachScene)
@@ -47,7 +47,8 @@ TEST(Overall, IsTheGeometricMeanOfTheRatiosToTheBestOfEachScene)
 
 TEST(Overall, PutsThoseLastThatOthersBeatWithoutAnyVariance)
 {
-    const SceneReport solved = scene_of({simulate_exact("a"), simulate("b", uniform_samples(0.2))});
+    const SceneReport solved =
+        scene_with({simulate_exact("a"), simulate("b", uniform_samples(0.2))});
     const auto overall = rank_overall({solved, dark()});
     ASSERT_EQ(overall.size(), 2u);
     EXPECT_EQ(overall[0].name, "a/power");

@@ -1,14 +1,13 @@
 #include "mis/compare/pairs.h"
 
+#include "mis/math/limits.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 namespace mis {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Verdict verdict_of(LogEstimate log_ratio, double margin = 0.02)
 {

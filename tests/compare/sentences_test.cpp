@@ -80,6 +80,25 @@ TEST(Sentences, NameTiesAndTheUndecided)
     expect_said(text, "times as many samples) would decide.");
 }
 
+TEST(Sentences, NameManyThatAreTiedOnce)
+{
+    StrategyMeasurements a = simulate("a", uniform_samples(0.1)), b = a, c = a;
+    b.strategy = named("b");
+    c.strategy = named("c");
+    const std::string text = all_of(scene_of({a, b, c, simulate("other", uniform_samples(0.9))}));
+    expect_said(text, "a/power, b/power and c/power are tied in variance, each with each, within");
+    EXPECT_EQ(text.find("(ratio 1"), std::string::npos) << text;
+}
+
+TEST(Sentences, QuoteNoGainOverWhatMayBeAsGood)
+{
+    const std::string text = all_of(
+        scene_of({simulate("a", uniform_samples(0.1)), simulate("uniform", uniform_samples(0.101)),
+                  simulate("power", uniform_samples(0.9))}));
+    expect_said(text, "times sooner than power/power");
+    EXPECT_EQ(text.find("sooner than uniform"), std::string::npos) << text;
+}
+
 TEST(Sentences, DoNotCallSureWhatAnUnresolvedStrategyMayBeat)
 {
     // Some 3 samples of 16384 carry the variance of `lucky`, which is far below that of `a`.
@@ -144,7 +163,9 @@ TEST(Sentences, SayThatTheLeastVarianceCostsMore)
 TEST(Sentences, SayThatNothingCouldBeRanked)
 {
     const SceneReport scene = scene_of({simulate("c", rare_samples(1e-4))});
-    EXPECT_EQ(sentences_of(scene, 2, 0.02)[0], "No strategy could be ranked on this scene.");
+    EXPECT_EQ(sentences_of(scene, 2, 0.02)[0],
+              "No strategy could be ranked on this scene: about 99 times the samples (--spp, "
+              "--time) may tell.");
     EXPECT_EQ(sentences_of({}, 1, 0.02).size(), 1u);
 }
 

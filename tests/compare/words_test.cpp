@@ -40,7 +40,7 @@ TEST(Words, ShowDurations)
     EXPECT_EQ(duration(0.83), "830 ms");
     EXPECT_EQ(duration(1.23), "1.2 s");
     EXPECT_EQ(duration(0), "0 s");
-    EXPECT_EQ(duration(2e-5), "20 us");
+    EXPECT_EQ(duration(2e-5), "20 µs");
     EXPECT_EQ(duration(90), "90 s");
     EXPECT_EQ(duration(600), "10 min");
     EXPECT_EQ(duration(9000), "2.5 h");

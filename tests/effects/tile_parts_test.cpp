@@ -37,7 +37,8 @@ TEST(TileParts, OfALongStripAreSmall)
     Uniforms uniforms(96);
     const TileParts parts(strip(256, 30, uniforms));
     EXPECT_EQ(parts.balls().size(), TileParts::most);
-    for (const Ball& ball : parts.balls()) EXPECT_LT(ball.radius, parts.around().radius / 10);
+    for (const BoundingBall& ball : parts.balls())
+        EXPECT_LT(ball.radius, parts.around().radius / 10);
 }
 
 TEST(TileParts, OfPointsInOnePlaceIsOne)

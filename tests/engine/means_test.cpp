@@ -15,7 +15,7 @@ namespace {
 /// The chance that any of the tests of this file fails where all is right.
 constexpr double false_alarm = 1e-6;
 constexpr int tests_at_most = 2000;
-constexpr std::uint64_t seed = 12;
+constexpr std::uint64_t seed_of_means = 12;
 
 double z_of(const Outcome& outcome, double exact)
 {
@@ -30,8 +30,9 @@ template <class T> void expect_means(const TestScene& test, double exact, int sa
 {
     const double bound = z_bound(false_alarm, tests_at_most);
     for (const Strategy& s : every_strategy()) {
-        const Outcome outcome = run_probe<T>(
-            test, s, kernels<T>(), scaled(s.chooses_light() ? samples : 4 * samples), seed);
+        const Outcome outcome =
+            run_probe<T>(test, s, kernels<T>(), scaled(s.chooses_light() ? samples : 4 * samples),
+                         seed_of_means);
         EXPECT_LT(std::abs(z_of(outcome, exact)), bound)
             << name_of(s) << ": mean " << outcome.result.luminance.mean << " ± "
             << outcome.result.luminance.mean_se() << ", exact " << exact;
@@ -126,7 +127,7 @@ TEST(EveryStrategy, SeesALightWhoseSurfaceATouchingSphereShares)
             for (const char* name : {"uniform/light", "brdf", "solid-angle/power"}) {
                 const Outcome outcome =
                     run_probe<float>(TestScene(scene, tracer), parse_strategy(name),
-                                     kernels<float>(), scaled(100'000), seed);
+                                     kernels<float>(), scaled(100'000), seed_of_means);
                 EXPECT_LT(std::abs(z_of(outcome, exact)), z_bound(false_alarm, tests_at_most))
                     << name << ", around " << around << ": mean " << outcome.result.luminance.mean
                     << ", exact " << exact;
@@ -217,7 +218,8 @@ TEST(PlantedError, Of1PercentInAProbabilityIsSeen)
 {
     const TestScene test(probe_under(three_lights_apart(), grey_floor()));
     for (const char* name : {"radiant-solid-angle/light", "radiant-solid-angle/power"}) {
-        const ReadyStrategy<float> ready(test.lit, parse_strategy(name), kernels<float>(), seed);
+        const ReadyStrategy<float> ready(test.lit, parse_strategy(name), kernels<float>(),
+                                         seed_of_means);
         Pipeline<float> pipeline = ready.pipeline(0);
         const auto choose =
             std::find_if(pipeline.light.begin(), pipeline.light.end(),

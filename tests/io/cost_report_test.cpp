@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::json;
 
 /// Curves in every state: fitted, crossing another, biased, of rare samples, not run.
-CostReport sample_report()
+CostReport sample_costs()
 {
     const CostGround ground{.points = 1000, .threads = 2, .reference = {1e-6, 1e-8, 1e-6}};
     std::vector<CostMeasurements> curves{
@@ -47,14 +47,14 @@ CostReport sample_report()
 }
 
 Json described() { return Json::parse(std::ifstream(source_dir() / "docs/cost.schema.json")); }
-Json emitted() { return Json::parse(cost_json(sample_report())); }
+Json emitted_costs() { return Json::parse(cost_json(sample_costs())); }
 
 TEST(CostJson, IsAsItsDescriptionSays)
 {
     const SchemaCheck check(described());
-    EXPECT_EQ(check.first_fault(emitted()), "");
+    EXPECT_EQ(check.first_fault(emitted_costs()), "");
     EXPECT_EQ(check.first_fault(Json::parse(cost_json({}))), "");
-    Json lacking = emitted(), wrong = emitted();
+    Json lacking = emitted_costs(), wrong = emitted_costs();
     lacking["scenes"][0]["strategies"][0].erase("slope");
     EXPECT_EQ(check.first_fault(lacking), "/scenes/0/strategies/0: lacks \"slope\"");
     wrong["scenes"][0]["strategies"][0]["times"][0]["reach"] = "guessed";
@@ -63,10 +63,10 @@ TEST(CostJson, IsAsItsDescriptionSays)
 
 TEST(CostJson, HoldsTheFiguresWithAllTheirDigits)
 {
-    const CostReport report = sample_report();
+    const CostReport report = sample_costs();
     const CostSceneReport& scene = report.scenes[0];
-    const Json json = emitted()["scenes"][0], s = json["strategies"][0];
-    EXPECT_EQ(emitted()["format"], "mis-cost/1");
+    const Json json = emitted_costs()["scenes"][0], s = json["strategies"][0];
+    EXPECT_EQ(emitted_costs()["format"], "mis-cost/1");
     EXPECT_EQ(s["name"], "power/power");
     EXPECT_EQ(s["precision"], "double");
     EXPECT_EQ(s["slope"]["value"].get<double>(), scene.curves[0].slope.value);
@@ -87,7 +87,7 @@ TEST(CostJson, HoldsTheFiguresWithAllTheirDigits)
 
 TEST(CostCsv, HasAsManyFieldsInEveryRow)
 {
-    CostReport report = sample_report();
+    CostReport report = sample_costs();
     report.scenes[0].file = "plain.json";  // no comma in a field
     std::istringstream lines(cost_csv(report));
     std::size_t rows = 0;
@@ -98,12 +98,12 @@ TEST(CostCsv, HasAsManyFieldsInEveryRow)
     EXPECT_EQ(rows, 1U + 4 * (7 + 5) + 1);
     EXPECT_NE(cost_csv(report).find(",brdf,float,point,1,"), std::string::npos);
     EXPECT_NE(cost_csv(report).find(",power/power,double,time_to,"), std::string::npos);
-    EXPECT_NE(cost_csv(sample_report()).find("\"a \"\"b\"\",c.json\""), std::string::npos);
+    EXPECT_NE(cost_csv(sample_costs()).find("\"a \"\"b\"\",c.json\""), std::string::npos);
 }
 
 TEST(CostText, FitsEightyColumnsAndMarksWhatIsNotMeasured)
 {
-    const std::string text = cost_text(sample_report().scenes[0], 2);
+    const std::string text = cost_text(sample_costs().scenes[0], 2);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(width_of(line), 80U) << line;
     for (const char* part :
@@ -115,7 +115,7 @@ TEST(CostText, FitsEightyColumnsAndMarksWhatIsNotMeasured)
 
 TEST(CostText, ShowsTheGainOfSobolSequences)
 {
-    CostReport report = sample_report();
+    CostReport report = sample_costs();
     report.is_sobol = report.scenes[0].is_sobol = true;
     std::vector<CostPoint>& points = report.scenes[0].curves[0].points;
     for (CostPoint& point : points)
@@ -125,15 +125,16 @@ TEST(CostText, ShowsTheGainOfSobolSequences)
     EXPECT_NE(text.find("Sobol' sequence"), std::string::npos) << text;
     EXPECT_NE(text.find("gain over independent"), std::string::npos) << text;
     EXPECT_NE(text.find("30±2%"), std::string::npos) << text;  // at 4
-    EXPECT_EQ(cost_text(sample_report().scenes[0], 2).find("gain"), std::string::npos);
+    EXPECT_EQ(cost_text(sample_costs().scenes[0], 2).find("gain"), std::string::npos);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(width_of(line), 80U) << line;
     const Json json = Json::parse(cost_json(report));
     EXPECT_EQ(SchemaCheck(described()).first_fault(json), "");
     EXPECT_EQ(json["sampler"], "sobol");
     EXPECT_EQ(json["scenes"][0]["strategies"][0]["points"][2]["gain"]["value"], 30);
-    EXPECT_EQ(emitted()["sampler"], "independent");
-    EXPECT_TRUE(emitted()["scenes"][0]["strategies"][0]["points"][2]["gain"]["low"].is_null());
+    EXPECT_EQ(emitted_costs()["sampler"], "independent");
+    EXPECT_TRUE(
+        emitted_costs()["scenes"][0]["strategies"][0]["points"][2]["gain"]["low"].is_null());
     EXPECT_NE(cost_csv(report).find(",30,29.6,30.4\r"), std::string::npos) << cost_csv(report);
 }
 

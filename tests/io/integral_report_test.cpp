@@ -10,7 +10,7 @@
 namespace mis {
 namespace {
 
-IntegralReport sample_report()
+IntegralReport sample_integral()
 {
     IntegralReport report{.version = "0.1.0",
                           .command = "mis integrate \xff",
@@ -29,7 +29,7 @@ IntegralReport sample_report()
 
 TEST(IntegralReport, JsonHasTheOuterShapeOfReports)
 {
-    const auto json = nlohmann::json::parse(integral_json(sample_report()));
+    const auto json = nlohmann::json::parse(integral_json(sample_integral()));
     EXPECT_EQ(json["format"], "mis-integrate/1");
     for (const char* key : {"version", "command", "seed", "partial"})
         EXPECT_TRUE(json.contains(key)) << key;
@@ -39,7 +39,7 @@ TEST(IntegralReport, JsonHasTheOuterShapeOfReports)
 
 TEST(IntegralReport, JsonHoldsTheFiguresAndNullForWhatADoubleCannotHold)
 {
-    const IntegralReport report = sample_report();
+    const IntegralReport report = sample_integral();
     const auto json = nlohmann::json::parse(integral_json(report));
     const auto& uniform = json["densities"][0];
     EXPECT_EQ(uniform["running"][1]["mean"], report.densities[0].running[1].values.mean);
@@ -54,7 +54,7 @@ TEST(IntegralReport, JsonHoldsTheFiguresAndNullForWhatADoubleCannotHold)
 
 TEST(IntegralReport, CsvHasOneRowForEachDensityAndNumberOfDraws)
 {
-    const std::string csv = integral_csv(sample_report());
+    const std::string csv = integral_csv(sample_integral());
     const auto lines = std::count(csv.begin(), csv.end(), '\n'),
                commas = std::count(csv.begin(), csv.end(), ',');
     EXPECT_EQ(lines, 1 + 2 * static_cast<long>(hemisphere_densities.size()));
@@ -65,7 +65,7 @@ TEST(IntegralReport, CsvHasOneRowForEachDensityAndNumberOfDraws)
 
 TEST(IntegralReport, WhatWasInterruptedBeforeItsFirstDrawIsThereWithoutFigures)
 {
-    IntegralReport report = sample_report();
+    IntegralReport report = sample_integral();
     report.partial = true;
     report.densities.back().running.clear();
     const auto json = nlohmann::json::parse(integral_json(report));

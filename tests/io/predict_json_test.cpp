@@ -10,7 +10,7 @@
 namespace mis {
 namespace {
 
-PredictReport sample_report()
+PredictReport sample_predictions()
 {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const Predicted figures{.mean = 0.1,
@@ -32,7 +32,7 @@ PredictReport sample_report()
 
 TEST(PredictJson, HasTheOuterShapeOfReports)
 {
-    const auto json = nlohmann::json::parse(predict_json(sample_report()));
+    const auto json = nlohmann::json::parse(predict_json(sample_predictions()));
     EXPECT_EQ(json["format"], "mis-predict/1");
     for (const char* key : {"version", "command", "threads", "partial", "scenes"})
         EXPECT_TRUE(json.contains(key)) << key;
@@ -48,7 +48,7 @@ TEST(PredictJson, HasTheOuterShapeOfReports)
 
 TEST(PredictJson, KeepsAllDigitsAndHasNullForWhatIsInfiniteOrRefused)
 {
-    const auto json = nlohmann::json::parse(predict_json(sample_report()));
+    const auto json = nlohmann::json::parse(predict_json(sample_predictions()));
     const auto& probes = json["scenes"][0]["strategies"][1]["probes"];
     ASSERT_EQ(probes.size(), 2u);
     EXPECT_EQ(probes[0]["variance"]["value"], 2.0 / 3);
@@ -61,7 +61,7 @@ TEST(PredictJson, KeepsAllDigitsAndHasNullForWhatIsInfiniteOrRefused)
 
 TEST(PredictCsv, HasOneRowForEachProbeAndStrategy)
 {
-    const std::string csv = predict_csv(sample_report());
+    const std::string csv = predict_csv(sample_predictions());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2);
     EXPECT_NE(csv.find("\"two \"\"probes\"\"\",\"a,b.json\",0,brdf,0.1,1e-12,"), std::string::npos)
         << csv;
@@ -70,7 +70,7 @@ TEST(PredictCsv, HasOneRowForEachProbeAndStrategy)
 
 TEST(PredictText, SaysWhyThereAreNoFigures)
 {
-    const std::string text = predict_text(sample_report().scenes[0]);
+    const std::string text = predict_text(sample_predictions().scenes[0]);
     EXPECT_NE(text.find("power/balance/union@2+3"), std::string::npos) << text;
     EXPECT_NE(text.find("0.6666667"), std::string::npos) << text;
     EXPECT_NE(text.find("probe 1: surface 1 is a quad"), std::string::npos) << text;

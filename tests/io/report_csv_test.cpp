@@ -11,7 +11,7 @@ namespace mis {
 namespace {
 
 /// RFC 4180, as any reader of tables takes it.
-std::vector<std::vector<std::string>> parsed(const std::string& text)
+std::vector<std::vector<std::string>> parsed_csv(const std::string& text)
 {
     std::vector<std::vector<std::string>> rows(1, {""});
     bool quoted = false;
@@ -36,7 +36,7 @@ std::size_t column(const std::vector<std::string>& header, const std::string& na
 TEST(ReportCsv, HasOneRowForEachSceneAndStrategy)
 {
     const Report report = sample_report();
-    const auto rows = parsed(report_csv(report));
+    const auto rows = parsed_csv(report_csv(report));
     ASSERT_EQ(rows.size(), 1u + 2 * 7);
     for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
     EXPECT_EQ(rows[1][column(rows[0], "strategy")], "solid-angle/power");
@@ -47,7 +47,7 @@ TEST(ReportCsv, HasOneRowForEachSceneAndStrategy)
 TEST(ReportCsv, HoldsTheFiguresWithAllTheirDigits)
 {
     const Report report = sample_report();
-    const auto rows = parsed(report_csv(report));
+    const auto rows = parsed_csv(report_csv(report));
     const Interval variance = report.scenes[0].strategies[0].variance;
     EXPECT_EQ(std::strtod(rows[1][column(rows[0], "variance")].c_str(), nullptr), variance.value);
     EXPECT_EQ(std::strtod(rows[1][column(rows[0], "variance_high")].c_str(), nullptr),
@@ -56,7 +56,7 @@ TEST(ReportCsv, HoldsTheFiguresWithAllTheirDigits)
 
 TEST(ReportCsv, LeavesEmptyWhatIsNotKnown)
 {
-    const auto rows = parsed(report_csv(sample_report()));
+    const auto rows = parsed_csv(report_csv(sample_report()));
     EXPECT_EQ(rows[6][column(rows[0], "variance")], "");
     EXPECT_EQ(rows[6][column(rows[0], "rank")], "");
     EXPECT_EQ(rows[5][column(rows[0], "light_draws")], "0");
@@ -64,7 +64,7 @@ TEST(ReportCsv, LeavesEmptyWhatIsNotKnown)
     EXPECT_EQ(report_csv(sample_report()).find("nan"), std::string::npos);
 }
 
-TEST(ReportCsv, OfNothingIsAHeader) { EXPECT_EQ(parsed(report_csv({})).size(), 1u); }
+TEST(ReportCsv, OfNothingIsAHeader) { EXPECT_EQ(parsed_csv(report_csv({})).size(), 1u); }
 
 }  // namespace
 }  // namespace mis

@@ -14,8 +14,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json described() { return Json::parse(std::ifstream(source_dir() / "docs/report.schema.json")); }
-Json emitted() { return Json::parse(report_json(sample_report())); }
+Json described_report()
+{
+    return Json::parse(std::ifstream(source_dir() / "docs/report.schema.json"));
+}
+Json emitted_report() { return Json::parse(report_json(sample_report())); }
 
 Json strategy_named(const Json& scene, const std::string& name)
 {
@@ -26,8 +29,8 @@ Json strategy_named(const Json& scene, const std::string& name)
 
 TEST(ReportJson, IsAsItsDescriptionSays)
 {
-    const SchemaCheck check(described());
-    EXPECT_EQ(check.first_fault(emitted()), "");
+    const SchemaCheck check(described_report());
+    EXPECT_EQ(check.first_fault(emitted_report()), "");
     EXPECT_EQ(check.first_fault(Json::parse(report_json({}))), "");
     Report bare;
     bare.scenes.resize(2);
@@ -36,8 +39,9 @@ TEST(ReportJson, IsAsItsDescriptionSays)
 
 TEST(ReportJson, IsNotAsDescribedOnceAnythingChanges)
 {
-    const SchemaCheck check(described());
-    Json lacking = emitted(), wrong = emitted(), more = emitted(), null = emitted();
+    const SchemaCheck check(described_report());
+    Json lacking = emitted_report(), wrong = emitted_report(), more = emitted_report(),
+         null = emitted_report();
     lacking["scenes"][0]["strategies"][0].erase("rank_low");
     EXPECT_EQ(check.first_fault(lacking), "/scenes/0/strategies/0: lacks \"rank_low\"");
     wrong["scenes"][0]["strategies"][0]["status"] = "good";
@@ -52,7 +56,7 @@ TEST(ReportJson, HoldsTheFiguresWithAllTheirDigits)
 {
     const Report report = sample_report();
     const StrategyReport& first = report.scenes[0].strategies[0];
-    const Json s = emitted()["scenes"][0]["strategies"][0];
+    const Json s = emitted_report()["scenes"][0]["strategies"][0];
     EXPECT_EQ(s["name"], "solid-angle/power");
     EXPECT_EQ(s["variance"]["value"].get<double>(), first.variance.value);
     EXPECT_EQ(s["variance"]["low"].get<double>(), first.variance.low);
@@ -64,7 +68,7 @@ TEST(ReportJson, HoldsTheFiguresWithAllTheirDigits)
 
 TEST(ReportJson, NamesStrategiesAsData)
 {
-    const Json scene = emitted()["scenes"][0];
+    const Json scene = emitted_report()["scenes"][0];
     const Json brdf = strategy_named(scene, "brdf");
     EXPECT_TRUE(brdf["policy"].is_null());
     EXPECT_TRUE(brdf["heuristic"].is_null());
@@ -77,7 +81,7 @@ TEST(ReportJson, NamesStrategiesAsData)
 
 TEST(ReportJson, IsNullWhereThereIsNoFigure)
 {
-    const Json scene = emitted()["scenes"][0];
+    const Json scene = emitted_report()["scenes"][0];
     const Json dear = strategy_named(scene, "all/balance@4+1"),
                exact = strategy_named(scene, "uniform/light");
     EXPECT_EQ(dear["status"], "not_run");
@@ -91,8 +95,9 @@ TEST(ReportJson, IsNullWhereThereIsNoFigure)
 
 TEST(ReportJson, BeginsItsSentencesWithTheVerdict)
 {
-    EXPECT_EQ(emitted()["scenes"][0]["sentences"][0].get<std::string>().find("Use uniform/light"),
-              0u);
+    EXPECT_EQ(
+        emitted_report()["scenes"][0]["sentences"][0].get<std::string>().find("Use uniform/light"),
+        0u);
 }
 
 TEST(ReportJson, SurvivesNamesThatAreNotUtf8)
@@ -107,7 +112,7 @@ TEST(ReportJson, IsExplainedKeyByKey)
     std::ifstream file(source_dir() / "docs/report-format.md");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     ASSERT_FALSE(text.empty());
-    const Json schema = described();
+    const Json schema = described_report();
     std::set<std::string> keys;
     const auto add = [&](const Json& object) {
         const Json properties = object.value("properties", Json::object());

@@ -34,7 +34,8 @@ std::string with_light(const std::string& entry)
 
 Scene parsed(const std::string& text) { return parse_scene(text, "plates.json"); }
 
-std::string message_of(const std::string& text, const std::filesystem::path& file = "plates.json")
+std::string message_about_scene(const std::string& text,
+                                const std::filesystem::path& file = "plates.json")
 {
     try {
         parse_scene(text, file);
@@ -274,7 +275,7 @@ class EveryBadScene : public testing::TestWithParam<BadScene> {};
 
 TEST_P(EveryBadScene, GivesOneMessageWithItsPlace)
 {
-    const std::string message = message_of(GetParam().text);
+    const std::string message = message_about_scene(GetParam().text);
     EXPECT_EQ(message.substr(0, GetParam().message.size()), GetParam().message);
     EXPECT_NE(message.find("; "), message.npos) << "what is allowed";
     EXPECT_NE(message.find("\n    "), message.npos) << "what to do";
@@ -536,9 +537,9 @@ TEST(SceneJson, NamesTheMeshAndTheReasonAtItsPlaceInTheScene)
     folder.write("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
     folder.write("box.fbx", "x");
     const auto mesh = [&](const std::string& file) {
-        return message_of(lit(lambert + R"(,"surfaces":[{"type":"mesh","file":")" + file +
-                              R"(","material":"floor"}])"),
-                          folder / "s.json");
+        return message_about_scene(lit(lambert + R"(,"surfaces":[{"type":"mesh","file":")" + file +
+                                       R"(","material":"floor"}])"),
+                                   folder / "s.json");
     };
     const std::string place = (folder / "s.json").string() + ": /surfaces/0/file: found ";
     EXPECT_EQ(mesh("flat.obj")
@@ -557,8 +558,8 @@ TEST(SceneJson, NamesTheTableItsLineAndColumn)
 {
     const TemporaryFolder folder;
     folder.write("bulbs.csv", "x,y,z,radius,r,g,b\n1,2,3,-4,5,6,7\n");
-    const std::string message =
-        message_of(with_light(R"({"type":"table","file":"bulbs.csv"})"), folder / "s.json");
+    const std::string message = message_about_scene(
+        with_light(R"({"type":"table","file":"bulbs.csv"})"), folder / "s.json");
     EXPECT_EQ(message.rfind((folder / "bulbs.csv").string() +
                                 ": line 2, column radius: found -4; a radius is greater than 0",
                             0),
@@ -596,7 +597,7 @@ TEST(SceneJson, StaysShortWhateverIsWrong)
     const std::string long_text(1'000'000, 'a');
     for (const std::string& text :
          {"{\"" + long_text, "{\"a\": " + long_text, lit("\"name\":[\"" + long_text + "\"]")})
-        EXPECT_LT(message_of(text).size(), 500u);
+        EXPECT_LT(message_about_scene(text).size(), 500u);
 }
 
 // ── the schema for editors ──

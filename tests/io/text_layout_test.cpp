@@ -19,8 +19,9 @@ TEST(ShortNumbers, TakeSixPlaces)
     EXPECT_EQ(short_number(std::nan("")), "");
     EXPECT_EQ(short_interval({2, 1.9, 2.11}), "2±6%");
     EXPECT_EQ(short_interval({0, 0, 0}), "0");
+    EXPECT_EQ(short_interval({3544, 688, 253061}), "690-250000");
     EXPECT_EQ(short_duration(0.5), "0.5s");
-    EXPECT_EQ(short_duration(1e-5), "10us");
+    EXPECT_EQ(short_duration(1e-5), "10µs");
     EXPECT_EQ(short_duration(7200), "2h");
 }
 
@@ -28,6 +29,7 @@ TEST(Printable, LeavesNoControlCharacter)
 {
     EXPECT_EQ(printable("a\tb\x1b[31m\x7f"), "a\\u0009b\\u001b[31m\\u007f");
     EXPECT_EQ(printable("\u009b31m \u00a0é☃\xc2"), "\\u009b31m \u00a0é☃\xc2");
+    EXPECT_EQ(printable("a\u202etxt\u2066\u2028é"), "a\\u202etxt\\u2066\u2028é");
 }
 
 TEST(Wrapped, BreaksBetweenWordsAndIndents)

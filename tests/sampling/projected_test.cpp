@@ -175,7 +175,7 @@ TYPED_TEST(ProjectedOf, TheDistanceIsWhereTheDrawMeetsTheSphere)
     }
 }
 
-template <class V> void expect_lanes_agree()
+template <class V> void expect_lanes_project_alike()
 {
     using S = Scalar<V>;
     Uniforms uniforms(4);
@@ -215,8 +215,8 @@ template <class V> void expect_lanes_agree()
 
 TEST(Projected, LanesAgreeWithOneAtATime)
 {
-    expect_lanes_agree<TestLanes<float>>();
-    expect_lanes_agree<TestLanes<double>>();
+    expect_lanes_project_alike<TestLanes<float>>();
+    expect_lanes_project_alike<TestLanes<double>>();
 }
 
 }  // namespace

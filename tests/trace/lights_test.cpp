@@ -10,7 +10,7 @@
 namespace mis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// All lights one after the other: what the hierarchy has to say.
 LightHit nearest_of_all(const Lights& lights, const Vec3<double>& x, const Vec3<double>& wi)
@@ -28,7 +28,7 @@ std::vector<LightHit> all_along(const Lights& lights, const Vec3<double>& x, con
     std::vector<LightHit> hits;
     for (std::size_t j = 0; j < lights.size(); ++j) {
         const double distance = hit_distance(lights[j].center - x, lights[j].radius, wi);
-        if (distance < infinity) hits.push_back({static_cast<LightIndex>(j), distance});
+        if (distance < endless) hits.push_back({static_cast<LightIndex>(j), distance});
     }
     return hits;
 }
@@ -39,7 +39,7 @@ bool inside_of_any(const Lights& lights, const Vec3<double>& x)
                        [&](const Light& l) { return length(l.center - x) <= l.radius; });
 }
 
-Light light_at(const Vec3<double>& center, double radius)
+Light sphere_at(const Vec3<double>& center, double radius)
 {
     return make_light(center, radius, Vec3<double>(1));
 }
@@ -61,7 +61,7 @@ std::vector<LightCase> cases()
         Lights lights;
         for (int i = 0; i < n; ++i)
             lights.push_back(
-                light_at(around + uniforms.in_box(extent), uniforms.log_between(least, largest)));
+                sphere_at(around + uniforms.in_box(extent), uniforms.log_between(least, largest)));
         return lights;
     };
     std::vector<LightCase> list{
@@ -76,10 +76,10 @@ std::vector<LightCase> cases()
     Lights coincident = cloud(50, 1, 0.2, 0.5), line, with_sun = cloud(200, 5, 0.05, 0.5);
     for (int i = 0; i < 150; ++i)
         coincident.push_back(coincident[static_cast<std::size_t>(i) % 50]);
-    for (int i = 0; i < 500; ++i) line.push_back(light_at({0.1 * i, 0, 0}, 0.06));
-    with_sun.insert(with_sun.begin() + 100, light_at({1.2e11, 9e10, 0}, 7e8));
+    for (int i = 0; i < 500; ++i) line.push_back(sphere_at({0.1 * i, 0, 0}, 0.06));
+    with_sun.insert(with_sun.begin() + 100, sphere_at({1.2e11, 9e10, 0}, 7e8));
     list.push_back({"coincident", coincident, 3});
-    list.push_back({"all in one place", Lights(100, light_at({1, 1, 1}, 0.5)), 4});
+    list.push_back({"all in one place", Lights(100, sphere_at({1, 1, 1}, 0.5)), 4});
     list.push_back({"on a line", line, 30});
     list.push_back({"with a far sun", with_sun, 10});
     return list;
@@ -191,7 +191,7 @@ TEST(LightHierarchy, ContainsTheInsideAndTheSurface)
             EXPECT_EQ(hierarchy.contains(x), inside_of_any(c.lights, x)) << c.name;
         }
     }
-    const Lights unit{light_at({0, 0, 0}, 1)};
+    const Lights unit{sphere_at({0, 0, 0}, 1)};
     EXPECT_TRUE(LightHierarchy(unit).contains({1, 0, 0}));
     EXPECT_TRUE(LightHierarchy(unit).contains({0, 0, 0}));
     EXPECT_FALSE(LightHierarchy(unit).contains({0, 1.000001, 0}));
@@ -199,7 +199,7 @@ TEST(LightHierarchy, ContainsTheInsideAndTheSurface)
 
 TEST(LightHierarchy, OfCoincidentLightsTheOneListedFirstIsNearer)
 {
-    const Lights lights{light_at({0, 0, 9}, 1), light_at({0, 0, 5}, 1), light_at({0, 0, 5}, 1)};
+    const Lights lights{sphere_at({0, 0, 9}, 1), sphere_at({0, 0, 5}, 1), sphere_at({0, 0, 5}, 1)};
     const LightHierarchy hierarchy(lights);
     const Vec3<double> x{0, 0, 0}, wi{0, 0, 1};
     EXPECT_EQ(hierarchy.nearest(x, wi).light, 1);
@@ -221,7 +221,7 @@ TEST(LightHierarchy, AnswersAsANewOneWhenLightsHaveMoved)
                 c.lights[static_cast<std::size_t>(uniforms.below(int(c.lights.size())))];
             const Vec3<double> away = uniforms.direction() * (3 * before.radius);
             const double radius = before.radius * uniforms.log_between(0.5, 2);
-            c.lights[j] = light_at((j % 2 == 0 ? before : other).center + away, radius);
+            c.lights[j] = sphere_at((j % 2 == 0 ? before : other).center + away, radius);
             hierarchy.refit(static_cast<LightIndex>(j), before);
         }
         const LightHierarchy fresh(c.lights);

@@ -1,6 +1,7 @@
 #include "mis/bind/python/work.h"
 
 #include "mis/compare/study.h"
+#include "mis/math/limits.h"
 #include "mis/run/tbb.h"
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 #include <atomic>
 #include <cmath>
 #include <exception>
-#include <limits>
 
 namespace mis::python {
 
@@ -45,8 +45,6 @@ NumberSource source_of(const std::string& sampler, std::uint64_t seed)
         throw ArgumentError("sampler: found \"" + sampler + "\"; known are independent, sobol");
     return {seed, sampler == "sobol" ? one_scrambling : 0};
 }
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 

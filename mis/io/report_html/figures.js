@@ -15,12 +15,21 @@ function duration(seconds) {
     if (seconds >= size * (unit === "min" ? 2 : 1)) return number(seconds / size) + "\u00a0" + unit;
   return number(seconds * 1e9) + "\u00a0ns";
 }
-/// "±3 %": the larger half of an interval, rounded up.
-function error_of(x) {
+/// "±3 %": the larger half of an interval, rounded up; "2 to 9" where that says too little.
+function error_of(x, show = number) {
   if (!x || x.low === null || !x.value) return "";
   const half = 100 * Math.max(x.high - x.value, x.value - x.low) / x.value;
+  if (half > 50) return between(x, show);
   return "±" + (half < 1 ? Math.ceil(half * 10) / 10 : Math.ceil(half)) + "\u00a0%";
 }
+/// A figure and its interval, for a cell.
+function figure_of(x, show = number) {
+  const error = note(error_of(x, show));
+  if (error.textContent.includes(" to ")) error.className = "below";
+  return [show(x.value), error];
+}
+/// The interval, at 95 %, of a mean of many samples.
+const mean_error = (se, digits = 1) => se ? "±" + number(1.96 * se, digits) : "";
 const between = (x, show = number) => x.low === null ? "interval not known" : `${show(x.low)} to ${show(x.high)}`;
 
 const is_ranked = (s) => s.status === "ranked";
@@ -33,6 +42,9 @@ function best_of(scene) {
   const time = (s) => s.seconds_to_1_percent ?? Infinity;
   return ranked(scene).sort((a, b) => time(a) - time(b) || a.rank - b.rank)[0];
 }
+/// Those that the strategy is neither apart from nor tied with, in variance.
+const undecided_with = (scene, s) => scene.pairs.filter((p) => p.verdict === "undecided" && (p.a === s.name || p.b === s.name)).map((p) => p.a === s.name ? p.b : p.a);
+const is_undecided = (scene, s) => undecided_with(scene, s).length > 0;
 const pair_of = (scene, a, b) => scene.pairs.find((p) => (p.a === a && p.b === b) || (p.a === b && p.b === a));
 
 /// How many times sooner a is at 1 % than b, as an interval.

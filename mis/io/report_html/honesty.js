@@ -32,6 +32,6 @@ function draw_effects() {
 function draw_checks() {
   const heads = [{ text: "Strategy", className: "text" }, { text: "State", className: "text" }, { text: "Samples" }, { text: "Mean" }, { text: "Bias p-value" }, { text: "Effective samples" }, { text: "Rare share" }, { text: "Not a number" }];
   const rows = scene_now().strategies.map((s) => make("tr", { "data-strategy": s.name, className: is_ranked(s) ? "" : "out" }, cell(pick_button(s), "text"), cell(is_ranked(s) ? s.exact ? "exact" : "ranked" : status_words[s.status], "text"),
-    cell(s.samples ? number(s.samples) : "–"), cell([number(s.mean, 4), note(s.mean_se ? "±" + number(s.mean_se, 2) : "")]), cell(s.status === "not_run" ? "–" : number(s.bias_p_value, 2)), cell(s.exact || s.status === "not_run" ? "–" : number(s.effective_samples)), cell(s.exact || s.status === "not_run" ? "–" : percent(s.rare_share)), cell(String(s.invalid_samples))));
+    cell(s.samples ? number(s.samples) : "–"), cell([number(s.mean, 4), note(mean_error(s.mean_se, 2))]), cell(s.status === "not_run" ? "–" : number(s.bias_p_value, 2)), cell(s.exact || s.status === "not_run" ? "–" : number(s.effective_samples)), cell(s.exact || s.status === "not_run" ? "–" : percent(s.rare_share)), cell(String(s.invalid_samples))));
   $("checks").replaceChildren(table_of("Checks of each strategy", heads, rows));
 }

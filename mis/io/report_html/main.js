@@ -25,14 +25,14 @@ function draw_tiles(scene, best) {
   const tiles = [];
   if (best.seconds_to_1_percent !== null) tiles.push(tile("Time to 1 % error", duration(best.seconds_to_1_percent), `95\u00a0%: ${between(best.seconds_to_1_percent_interval, duration)}`));
   const others = ranked(scene).filter((s) => s !== best && s.seconds_to_1_percent !== null).sort((a, b) => a.seconds_to_1_percent - b.seconds_to_1_percent);
-  const compared = (what, s) => { const x = sooner(scene, best.name, s.name); if (x) tiles.push(tile(what, number(x.value) + " ×", ["sooner than ", name_text(s.name), `; 95\u00a0%: ${between(x)}`])); };
+  const compared = (what, s) => { const x = sooner(scene, best.name, s.name); if (x) tiles.push(tile(what, number(x.value) + " ×", [x.value < 1.05 ? "as soon as " : "sooner than ", name_text(s.name), `; 95\u00a0%: ${between(x)}`])); };
   if (others.length > 0) compared("Against the next best", others[0]);
   if (others.length > 1) compared("Against the slowest", others[others.length - 1]);
   const open = scene.pairs.filter((p) => p.a === best.name || p.b === best.name).map((p) => ({ name: p.a === best.name ? p.b : p.a, verdict: best.seconds_to_1_percent === null ? p.verdict : p.time_verdict }));
   const undecided = open.filter((o) => o.verdict === "undecided"), tied = open.filter((o) => o.verdict === "tied");
   const not_ranked = scene.strategies.length - ranked(scene).length, others_not_ranked = not_ranked > 0 ? `; ${not_ranked} more are not ranked` : "";
-  tiles.push(tile("How sure", undecided.length > 0 ? "not yet" : tied.length > 0 ? "tied" : open.length === 0 ? "alone" : "sure",
-    (undecided.length > 0 ? `${undecided.length} of ${open.length} others may be as good` : tied.length > 0 ? `${tied.length} of ${open.length} others as good` : open.length === 0 ? "no other is ranked" : `ahead of all ${open.length} others, at 95\u00a0%`) + (open.length > 0 ? others_not_ranked : "")));
+  tiles.push(tile("How sure", undecided.length === open.length && open.length > 0 ? "not yet" : undecided.length > 0 ? `sure, but for ${undecided.length}` : tied.length > 0 ? "tied" : open.length === 0 ? "alone" : "sure",
+    (undecided.length > 0 ? `${undecided.length} of ${open.length} others may be as good` + (undecided.length < open.length ? "; not behind the rest, at 95\u00a0%" : "") : tied.length > 0 ? `${tied.length} of ${open.length} others as good` : open.length === 0 ? "no other is ranked" : `ahead of all ${open.length} others, at 95\u00a0%`) + (open.length > 0 ? others_not_ranked : "")));
   $("tiles").replaceChildren(...tiles);
 }
 
@@ -53,9 +53,14 @@ function draw_answer() {
   $("more-sentences").lastElementChild.replaceChildren(...rest.slice(first).map(item));
   $("answer").classList.toggle("bare", maps_now() === null);
   $("hero").hidden = maps_now() === null;
-  const partial = report.partial || scene.partial;
-  $("banner").hidden = !partial;
-  $("banner").textContent = partial ? "Stopped early: these are the results so far." : "";
+}
+
+/// What a run that was stopped lacks.
+function draw_banner() {
+  const stopped = shown.scene >= 0 && scene_now().partial;
+  $("banner").hidden = !report.partial && !stopped;
+  $("banner").textContent = stopped ? "Stopped early: these are the results so far." :
+    report.partial ? "The run was stopped early: scenes that it had not begun are missing" + (report.scenes.some((s) => s.partial) ? `, and of ${report.scenes.filter((s) => s.partial).map((s) => s.name || s.file).join(", ")} there are the results so far.` : ".") : "";
 }
 
 async function draw_hero() {
@@ -110,6 +115,7 @@ function show_scene(scene) {
   $("over-all").hidden = !all;
   $("one-scene").hidden = all;
   draw_scene_tabs();
+  draw_banner();
   if (all) return draw_over_all();
   for (const draw of [draw_answer, draw_ranking, draw_probes, draw_legend, draw_plots, draw_run, draw_effects, draw_checks]) draw();
   $("viewer").hidden = maps_now() === null;

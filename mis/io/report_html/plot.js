@@ -1,13 +1,14 @@
 // What all plots share: colours of policies, marks of heuristics, frames, and saving.
 
-/// Okabe and Ito's colours, which colour-blind eyes tell apart, one per policy.
-const policy_colours = { uniform: "#E69F00", power: "#56B4E9", "solid-angle": "#009E73", "radiant-solid-angle": "#D55E00", all: "#CC79A7", irradiance: "#0072B2" };
-const more_colours = ["#8C6D1F", "#6B5FA8", "#4D7F2B", "#A03B5B"];
+/// Okabe and Ito's colours, which colour-blind eyes tell apart, one per policy; darker where they would be pale on white:
+/// each is 3 to 1 against a light ground and a dark one.
+const policy_colours = { uniform: "#C27E00", power: "#2E93CC", "solid-angle": "#009E73", "radiant-solid-angle": "#D55E00", all: "#CC79A7", irradiance: "#0072B2" };
+const more_colours = ["#7466B4", "#B04A6A", "#4D7F2B", "#8C6D1F"], no_policy_colour = "#96673B";
 const heuristic_marks = { light: d3.symbolCircle, balance: d3.symbolSquare, power: d3.symbolTriangle, cutoff: d3.symbolDiamond, maximum: d3.symbolStar };
 const heuristic_dashes = { light: "1 4", balance: "7 3", power: null, cutoff: "7 3 1 3", maximum: "2 2" };
 
 function colour_of(s) {
-  if (s.policy === null) return "#8A929A";
+  if (s.policy === null) return no_policy_colour;
   if (policy_colours[s.policy]) return policy_colours[s.policy];
   const others = Object.keys(glossary.policy).filter((name) => !policy_colours[name]);
   return more_colours[Math.max(0, others.indexOf(s.policy)) % more_colours.length];

@@ -1,21 +1,27 @@
 // Where the time of a sample goes.
 
 const stage_groups = [
-  { name: "choosing a light", stages: ["prepare", "rows", "numbers", "choose"], colour: "#56B4E9" },
+  { name: "preparing the point", stages: [], colour: "#96673B" },
+  { name: "random numbers", stages: ["rows", "numbers"], colour: "#8A929A" },
+  { name: "choosing a light", stages: ["choose"], colour: "#2E93CC" },
   { name: "drawing a direction", stages: ["draw", "bsdf"], colour: "#009E73" },
-  { name: "meeting and weighing lights", stages: ["meet", "weigh", "add"], colour: "#E69F00" },
+  { name: "meeting and weighing lights", stages: ["meet", "weigh", "add"], colour: "#C27E00" },
   { name: "rays and occlusion", stages: ["light_occlusion", "rays"], colour: "#0072B2" },
 ];
+const rest_of_sample = { name: "moments and the rest", stages: [], colour: "#B04A6A" };
 
 function draw_stages() {
   const all = scene_now().strategies.filter((s) => Object.keys(s.stage_seconds).length > 0);
-  const known = stage_groups.flatMap((g) => g.stages);
-  const groups = [...stage_groups, { name: "other", stages: [...new Set(all.flatMap((s) => Object.keys(s.stage_seconds)))].filter((k) => !known.includes(k)), colour: "#8A929A" }];
-  const seconds = (s, group) => group.stages.reduce((sum, k) => sum + (s.stage_seconds[k] ?? 0), 0);
+  const known = [...stage_groups.flatMap((g) => g.stages), "prepare"];
+  const other = { name: "other", stages: [...new Set(all.flatMap((s) => Object.keys(s.stage_seconds)))].filter((k) => !known.includes(k)), colour: "#4D7F2B" };
+  const groups = [...stage_groups, other, rest_of_sample];
+  const in_stages = (s, group) => group.stages.reduce((sum, k) => sum + (s.stage_seconds[k] ?? 0), 0);
+  const seconds = (s, group) => group === stage_groups[0] ? (s.seconds_per_point.value ?? 0) / report.at
+    : group === rest_of_sample ? Math.max(0, (s.seconds_per_sample.value ?? 0) - groups.reduce((sum, g) => sum + in_stages(s, g), 0)) : in_stages(s, group);
   const total = (s) => groups.reduce((sum, g) => sum + seconds(s, g), 0);
   all.sort((a, b) => total(a) - total(b));
   const row = 21, top = 46, height = top + all.length * row + 30;
-  const { svg, width } = frame("plot-stages", "Where the time goes", "CPU time of one sample, with its part of what is prepared once per point in this run.", Math.max(height, 80));
+  const { svg, width } = frame("plot-stages", "Where the time goes", `CPU time of one sample; of what is prepared once per point, one part in ${number(report.at)}.`, Math.max(height, 80));
   if (all.length === 0) return;
   const left = Math.min(width * .42, 8 + 7.1 * Math.max(...all.map((s) => s.name.length)));
   const x = d3.scaleLinear().domain([0, 1e9 * Math.max(...all.map(total))]).nice(5).range([left, width - 30]);

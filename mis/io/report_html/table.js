@@ -26,24 +26,24 @@ const reason_words = (s) => status_words[s.status] + (s.reason ? ": " + s.reason
 const place = (rank, low, high) => rank === null ? "–" : low === high ? String(rank) : `${low}–${high}`;
 const ranking_columns = [
   { key: "variance", text: "Variance", title: "of one sample", of: (s) => s.exact ? 0 : s.variance.value,
-    show: (s) => s.exact ? "exact" : [number(s.variance.value), note(error_of(s.variance))] },
-  { key: "relative", text: "Relative", title: "relative variance", of: (s) => s.exact ? 0 : s.relative_variance.value,
-    show: (s) => s.exact ? "exact" : [number(s.relative_variance.value), note(error_of(s.relative_variance))] },
+    show: (s) => s.exact ? "exact" : figure_of(s.variance) },
+  { key: "relative", text: "Rel. variance", title: "relative variance of one sample", of: (s) => s.exact ? 0 : s.relative_variance.value,
+    show: (s) => s.exact ? "exact" : figure_of(s.relative_variance) },
   { key: "cost", text: "ns/sample", title: "CPU time", of: (s) => s.seconds_per_sample.value,
     show: (s) => s.seconds_per_sample.value === null ? "–" : number(1e9 * s.seconds_per_sample.value) },
-  { key: "rays", text: "Rays", title: "shadow rays per sample", of: (s) => s.rays_per_sample, show: (s) => number(s.rays_per_sample) },
+  { key: "rays", text: "Rays/sample", title: "shadow rays", of: (s) => s.rays_per_sample, show: (s) => number(s.rays_per_sample) },
   { key: "efficiency", text: "Efficiency", title: "1/(variance × time)", falls: true,
-    of: (s) => s.exact ? Infinity : s.efficiency.value, show: (s) => s.exact ? "exact" : [number(s.efficiency.value), note(error_of(s.efficiency))] },
+    of: (s) => s.exact ? Infinity : s.efficiency.value, show: (s) => s.exact ? "exact" : figure_of(s.efficiency) },
   { key: "time", text: "Time to 1 %", title: "wall time", of: (s) => s.seconds_to_1_percent,
-    show: (s) => [duration(s.seconds_to_1_percent), note(error_of(s.seconds_to_1_percent_interval))] },
+    show: (s) => figure_of(s.seconds_to_1_percent_interval, duration) },
 ];
 let sorted_by = "time", reversed = false;
 
 function ranking_row(scene, s, best) {
   const row = make("tr", { className: s === best ? "best" : is_ranked(s) ? "" : "out", "data-strategy": s.name });
-  const name = cell(pick_button(s), "text");
-  if (s.rank_low !== s.rank_high) name.append(make("small", { title: "its rank by variance is not settled" }, " ~"));
-  if (s.tied_with.length > 0) name.append(note("= " + s.tied_with.join(", ")));
+  const name = cell(pick_button(s), "text"), tied = s.tied_with;
+  if (is_undecided(scene, s)) name.append(make("small", { title: "not decided in variance against: " + undecided_with(scene, s).join(", ") }, " ~"));
+  if (tied.length > 0) name.append(make("small", { className: "below", title: "tied in variance with: " + tied.join(", ") }, "= " + (tied.length < 3 ? tied.join(", ") : `${tied.length} others`)));
   row.append(name);
   if (!is_ranked(s)) {
     row.append(make("td", { className: "text wrap reason", colSpan: ranking_columns.length + 2 }, make("span", {}, reason_words(s))));
@@ -56,7 +56,7 @@ function ranking_row(scene, s, best) {
     row.append(shown_cell);
   }
   const times = sooner(scene, best.name, s.name);
-  row.append(cell(s === best ? "1" : times ? [number(times.value), note(error_of(times))] : "–"));
+  row.append(cell(s === best ? "1" : times ? figure_of(times) : "–"));
   return row;
 }
 
@@ -73,7 +73,7 @@ function draw_ranking() {
     })), { text: "× the best" }];
   $("table").replaceChildren(table_of("Ranking of strategies", heads, order.map((s) => ranking_row(scene, s, best))));
   const notes = ["Rank: by variance of one sample, with the ranks that a strategy may hold. × the best: how many times as long it takes to 1 % error."];
-  if (scene.strategies.some((s) => s.rank_low !== s.rank_high)) notes.push("~ its rank is not settled.");
+  if (scene.strategies.some((s) => is_undecided(scene, s))) notes.push("~ not decided against some other, so that its rank is not settled.");
   if (scene.strategies.some((s) => s.tied_with.length > 0)) notes.push(`= tied in variance within ${percent(report.margin)}.`);
   $("table-notes").textContent = notes.join(" ");
   apply_choice();
@@ -90,6 +90,6 @@ function draw_probes() {
   const heads = [{ text: "Strategy", className: "text" }];
   for (let i = 0; i < count; ++i) heads.push({ text: `Probe ${i}: mean` }, { text: "variance" });
   const rows = scene.strategies.filter((s) => s.probes.length > 0).map((s) => make("tr", { "data-strategy": s.name }, cell(pick_button(s), "text"),
-    ...s.probes.flatMap((p) => [cell([number(p.mean), note(p.mean_se ? "±" + number(p.mean_se, 1) : "")]), cell([number(p.variance.value), note(error_of(p.variance))])])));
+    ...s.probes.flatMap((p) => [cell([number(p.mean), note(mean_error(p.mean_se))]), cell(figure_of(p.variance))])));
   $("probes").append(make("h3", {}, count === 1 ? "At the probe" : "At the probes"), make("div", { className: "scroll" }, table_of("Figures at the probes", heads, rows)));
 }

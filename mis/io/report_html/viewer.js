@@ -124,7 +124,7 @@ function draw_scale(measures) {
   const scale = is_variance ? d3.interpolateViridis : difference_scale;
   for (let i = 0; i < 128; ++i) svg.append("rect").attr("x", 24 + i * (width - 48) / 128).attr("width", (width - 48) / 128 + .6).attr("height", 12).attr("fill", scale(i / 127));
   svg.append("g").attr("class", "axis").attr("transform", "translate(0,12)").call(is_variance ? log_axis(d3.axisBottom, x, width - 48, (v) => number(v)) : d3.axisBottom(x).ticks(5).tickFormat((v) => (v > 0 ? "+" : "") + percent(v)));
-  const text = is_variance ? "variance of one sample, luminance²" : "blue: darker than the reference, orange: brighter; relative to √(reference² + ε²)";
+  const text = is_variance ? "variance of one sample, luminance²" : "blue: darker than the reference, orange: brighter; relative to √(reference² + ε²); past the ends the colour stays";
   svg.append("text").attr("class", "soft").attr("x", width / 2).attr("y", 46).attr("text-anchor", "middle").text(text);
   svg.attr("aria-label", text);
   place.append(svg.node());
@@ -138,10 +138,10 @@ async function draw_winner_key(place) {
   const sure = strategies.map((s, i) => ({ s, share: shares.strategy[i] ?? 0 })).filter((e) => e.share > 0).sort((a, b) => b.share - a.share);
   const policies = m.policies.map((policy, i) => ({ policy, share: shares.policy[i] ?? 0 })).filter((e) => e.share > 0).sort((a, b) => b.share - a.share);
   const key = make("div", { className: "key" }, ...sure.map(({ s, share }) => make("button", { type: "button", "data-strategy": s.name, onclick: () => choose(s.name) }, ...entry(winner_colour(s), s.name, share))),
-    ...policies.map(({ policy, share }) => make("span", {}, ...entry(policy_winner_colour(strategies, policy), policy + "/?", share))),
+    ...policies.map(({ policy, share }) => make("span", {}, ...entry(policy_winner_colour(strategies, policy), by_name(scene, policy) ? policy : policy + "/?", share))),
     make("span", {}, swatch(d3.rgb(...undecided_colour)), ` undecided ${percent(shares.undecided, 3)}`));
   place.replaceChildren(key, make("p", { className: "note" }, "Shares are of the lit pixels. “policy/?”: the policy is sure, the heuristic is not. " + (m.winner_square > 1 ? `Told for squares of ${m.winner_square} × ${m.winner_square} pixels, since one pixel has too few samples. ` : "") +
-    `Of what is coloured at most ${percent(m.false_winners)} is wrong, in expectation; grey is where the least is not sure.`));
+    `Of what is coloured at most ${percent(m.false_winners)} is wrong, in expectation; grey is where the least is not sure, dark grey where it is dark, black where there is no surface.`));
   apply_choice();
 }
 /// Shares of the pixels: of strategies from the full size, of policies what strategies leave of theirs, on the page's pixels.
