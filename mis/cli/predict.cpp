@@ -24,7 +24,8 @@ PredictReport::Probe predicted(const Scene& scene, const Probe& probe,
 {
     if (interrupt_flag()) return {.figures = {}, .refusal = "interrupted"};
     try {
-        return {.figures = predict(scene, probe, strategies, tolerance), .refusal = {}};
+        return {.figures = predict(scene, probe, strategies, tolerance, &interrupt_flag()),
+                .refusal = {}};
     } catch (const PredictError& error) {
         return {.figures = {}, .refusal = error.what()};
     }

@@ -183,10 +183,10 @@ private:
         const std::optional<SampleName> found = study_.runs[s]->first_invalid();
         if (found)
             throw std::runtime_error(scene_.scene().file + ": " + name_of(strategies_[s]) +
-                                     " gave a sample that is no number\n    " +
+                                     " gave a sample that is no number; this shows it\n    " +
                                      replay_words(scene_.scene().file, strategies_[s], *found) +
                                      " --seed " + std::to_string(options_.seed) + sampler_words() +
-                                     " (and this run's --resolution) shows it");
+                                     resolution_words());
     }
 
     /// As `mis replay` takes it.
@@ -194,6 +194,13 @@ private:
     {
         if (!numbers().is_sobol()) return "";
         return " --sampler sobol --at " + std::to_string(options_.samples_per_scrambling);
+    }
+
+    std::string resolution_words() const
+    {
+        if (!scene_.scene().camera) return "";
+        const auto [width, height] = scene_.scene().camera->resolution;
+        return " --resolution " + std::to_string(width) + "x" + std::to_string(height);
     }
 
     void show_progress(double of_round)

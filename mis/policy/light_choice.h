@@ -340,9 +340,8 @@ private:
                 for (std::size_t b = 0; b * block_size < lights.count; ++b)
                     detail::weigh_block<T>(weight, in_lanes<T>(point.x), in_lanes<T>(point.n),
                                            lights, b, &weights[b * block_size]);
-                double sum = 0;
-                for (std::size_t j = 0; j < lights.count; ++j)
-                    sums_[j] = sum += static_cast<double>(weights[j]);
+                RunningSum::over(std::span<const S>(weights).first(lights.count),
+                                 std::span<double>(sums_, lights.count));
             });
     }
 

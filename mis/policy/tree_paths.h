@@ -2,6 +2,7 @@
 
 #include "mis/math/lanes.h"
 #include "mis/policy/light_tree.h"
+#include "mis/sampling/discrete.h"
 
 #include <algorithm>
 #include <span>
@@ -13,6 +14,12 @@ namespace mis {
 MIS_INLINE bool sum_up(LightTree::Row<double>& weights)
 {
     constexpr std::size_t quarter = LightTree::width / 4;
+    std::array<double, quarter> most{};
+    for (std::size_t q = 0; q < LightTree::width; q += quarter)
+        for (std::size_t k = 0; k < quarter; ++k)
+            most[k] = weights[q + k] > most[k] ? weights[q + k] : most[k];
+    const double largest = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+    for (double& weight : weights) weight = with_a_share(weight, largest, LightTree::width);
     for (std::size_t k = 1; k < quarter; ++k)
         for (std::size_t q = 0; q < LightTree::width; q += quarter)
             weights[q + k] += weights[q + k - 1];

@@ -14,18 +14,21 @@ constexpr double sum_rounding = 4 * std::numeric_limits<double>::epsilon();
 
 class PatchIntegral {
 public:
-    PatchIntegral(const Patch& patch, Evaluator& evaluator, const Group& group, std::size_t size,
-                  const Effort& effort)
+    PatchIntegral(const Patch& patch, Evaluator& evaluator, const Group& group,
+                  std::size_t size = 0, const Effort& effort = {})
         : patch_(patch), evaluator_(evaluator), group_(group), effort_(effort),
           size_(size), total_{std::vector<double>(size), std::vector<double>(size)}
     {
         for (const double jump : group.jumps) levels_.push_back(std::log(jump));
     }
 
-    Integrals run()
+    std::vector<double> azimuths()
     {
-        const std::vector<double> azimuths =
-            group_.jumps.empty() ? patch_.azimuths() : cut_by_jumps(patch_.azimuths());
+        return group_.jumps.empty() ? patch_.azimuths() : cut_by_jumps(patch_.azimuths());
+    }
+
+    Integrals run(std::span<const double> azimuths)
+    {
         for (std::size_t i = 0; i + 1 < azimuths.size(); ++i)
             around(azimuths[i], azimuths[i + 1], -1, 1, 0);
         return std::move(total_);
@@ -195,7 +198,7 @@ private:
     const Patch& patch_;
     Evaluator& evaluator_;
     const Group& group_;
-    const Effort& effort_;
+    Effort effort_;
     std::size_t size_;
     Integrals total_;
     std::vector<double> levels_;  ///< of the log ratio
@@ -208,10 +211,15 @@ private:
 
 }  // namespace
 
-Integrals integrate(const Patch& patch, Evaluator& evaluator, const Group& group, std::size_t size,
-                    const Effort& effort)
+Integrals integrate(const Patch& patch, Evaluator& evaluator, const Group& group,
+                    std::span<const double> azimuths, std::size_t size, const Effort& effort)
 {
-    return PatchIntegral(patch, evaluator, group, size, effort).run();
+    return PatchIntegral(patch, evaluator, group, size, effort).run(azimuths);
+}
+
+std::vector<double> azimuths_of(const Patch& patch, Evaluator& evaluator, const Group& group)
+{
+    return PatchIntegral(patch, evaluator, group).azimuths();
 }
 
 }  // namespace mis

@@ -2,6 +2,9 @@
 
 #include "mis/predict/evaluate.h"
 
+#include <span>
+#include <vector>
+
 namespace mis {
 
 /// A vector of integrals, each with a bound of its error.
@@ -20,7 +23,12 @@ struct Effort {
 
 /// Integrates a group over a patch: along meridians, each cut where anything jumps, and around the
 /// pole, cut at the azimuths where a meridian meets other things (docs/theory-predict.md, P11).
-Integrals integrate(const Patch& patch, Evaluator& evaluator, const Group& group, std::size_t size,
-                    const Effort& effort);
+/// azimuths: of azimuths_of().
+Integrals integrate(const Patch& patch, Evaluator& evaluator, const Group& group,
+                    std::span<const double> azimuths, std::size_t size, const Effort& effort);
+
+/// Where to cut around the pole, ascending: the patch's own azimuths, and those at which the
+/// group's weights jump.
+std::vector<double> azimuths_of(const Patch& patch, Evaluator& evaluator, const Group& group);
 
 }  // namespace mis

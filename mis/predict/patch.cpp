@@ -1,6 +1,7 @@
 #include "mis/predict/patch.h"
 
 #include "mis/predict/crossings.h"
+#include "mis/predict/predict.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,8 +84,9 @@ std::array<Vec3<double>, 2> rims_in_common(const Ball& ends, const Ball& other)
 
 }  // namespace
 
-Patch::Patch(const Sky& sky, int light, std::span<const int> neighbours, const Lobe& lobe)
-    : sky_(&sky), light_(light), polar_(sky.ball(light).cap.axis), lobe_(lobe)
+Patch::Patch(const Sky& sky, int light, std::span<const int> neighbours, const Lobe& lobe,
+             const std::atomic<bool>* stop)
+    : sky_(&sky), light_(light), polar_(sky.ball(light).cap.axis), lobe_(lobe), stop_(stop)
 {
     const Ball& ball = sky.ball(light);
     pole_is_lobe_ = lobe_is_better_pole(ball, lobe);
@@ -95,6 +97,7 @@ Patch::Patch(const Sky& sky, int light, std::span<const int> neighbours, const L
     local_of_circle_.push_back(-1), smaller_.push_back(false);
     for (const int neighbour : neighbours) add_circle(neighbour);
     add_pairs();
+    azimuths_ = all_azimuths();
 }
 
 void Patch::add_circle(int index)
@@ -130,7 +133,7 @@ void Patch::add_pairs()
                 interlocked_.push_back({solid[i], solid[k]});
 }
 
-std::vector<double> Patch::azimuths() const
+std::vector<double> Patch::all_azimuths() const
 {
     std::vector<double> breaks = known_azimuths();
     if (interlocked_.empty()) return breaks;
@@ -276,6 +279,7 @@ bool Patch::describe(double theta, const std::vector<Chord>& chords, const Vec3<
 
 void Patch::meridian(double phi, Meridian& out) const
 {
+    if (stop_ != nullptr && *stop_) throw PredictError("interrupted");
     out.around = polar_.around(phi);
     out.stretches.clear(), out.along.clear(), out.hints.clear();
     std::vector<Chord> chords(circles_.size());

@@ -4,6 +4,7 @@
 #include "mis/predict/lobe.h"
 #include "mis/predict/sky.h"
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -32,18 +33,21 @@ struct Meridian {
 class Patch {
 public:
     /// neighbours: the balls that could share a direction with the light's cap, itself excluded.
-    Patch(const Sky& sky, int light, std::span<const int> neighbours, const Lobe& lobe);
+    /// stop: looked at by every meridian, which throws PredictError once it is set.
+    Patch(const Sky& sky, int light, std::span<const int> neighbours, const Lobe& lobe,
+          const std::atomic<bool>* stop = nullptr);
 
     const Polar& polar() const { return polar_; }
     /// Lights whose caps overlap this one's, itself first.
     const std::vector<int>& lights() const { return lights_; }
     /// Ascending; the last is the first + 2π. Between two, what a meridian meets changes smoothly.
-    std::vector<double> azimuths() const;
+    const std::vector<double>& azimuths() const { return azimuths_; }
     void meridian(double phi, Meridian& out) const;
 
 private:
     void add_circle(int ball);
     void add_pairs();
+    std::vector<double> all_azimuths() const;
     std::vector<double> known_azimuths() const;
     double distance(int ball, const Vec3<double>& offset) const;
     void add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low,
@@ -63,6 +67,8 @@ private:
     std::vector<int> local_of_circle_;             ///< number in lights_, −1 for none
     std::vector<bool> smaller_;                    ///< is the circle's cap that of a smaller light?
     std::vector<std::array<int, 2>> interlocked_;  ///< pairs of balls
+    std::vector<double> azimuths_;
+    const std::atomic<bool>* stop_;
 };
 
 }  // namespace mis

@@ -18,7 +18,8 @@ public:
     GroupPrediction(const Sky& sky, const Response& response, const Plan& plan, const Group& group,
                     const std::vector<Patch>& patches, double tolerance, double rounding)
         : sky_(sky), response_(response), plan_(plan), group_(group), patches_(patches),
-          tolerance_(tolerance), rounding_(rounding), empty_(empty_moments(plan, sky.lights))
+          tolerance_(tolerance), rounding_(rounding), azimuths_(patches.size()),
+          empty_(empty_moments(plan, sky.lights))
     {
     }
 
@@ -41,11 +42,14 @@ private:
     std::vector<StrategyMoments> pass(bool refine)
     {
         std::vector<StrategyMoments> moments = empty_;
-        for (const Patch& patch : patches_) {
+        for (std::size_t p = 0; p < patches_.size(); ++p) {
+            const Patch& patch = patches_[p];
             const Tally tally(plan_, group_, patch, empty_);
             Evaluator evaluator(sky_, response_, plan_, group_, patch, tally);
+            if (azimuths_[p].empty()) azimuths_[p] = azimuths_of(patch, evaluator, group_);
             const Effort effort{.tolerance = refine ? tolerances_of(tally) : std::vector<double>{}};
-            const Integrals found = integrate(patch, evaluator, group_, tally.size(), effort);
+            const Integrals found =
+                integrate(patch, evaluator, group_, azimuths_[p], tally.size(), effort);
             for (std::size_t i = 0; i < tally.slots().size(); ++i)
                 draw_of(moments, tally.slots()[i])
                     .sums.add(&found.value[4 * i], &found.error[4 * i]);
@@ -159,17 +163,18 @@ private:
     const Group& group_;
     const std::vector<Patch>& patches_;
     double tolerance_, rounding_;
-    std::vector<StrategyMoments> empty_;       ///< with the shifts
-    std::vector<StrategyMoments> tolerances_;  ///< in sums.error
+    std::vector<std::vector<double>> azimuths_;  ///< per patch; found by the first pass
+    std::vector<StrategyMoments> empty_;         ///< with the shifts
+    std::vector<StrategyMoments> tolerances_;    ///< in sums.error
 };
 
 /// The patches that can count: of lights not wholly below the horizon.
-std::vector<Patch> patches_of(const Sky& sky, const Lobe& lobe)
+std::vector<Patch> patches_of(const Sky& sky, const Lobe& lobe, const std::atomic<bool>* stop)
 {
     std::vector<Patch> patches;
     for (std::size_t j = 0; j < sky.lights; ++j)
         if (!is_below(sky.balls[j], sky.n))
-            patches.emplace_back(sky, static_cast<int>(j), sky.neighbours[j], lobe);
+            patches.emplace_back(sky, static_cast<int>(j), sky.neighbours[j], lobe, stop);
     return patches;
 }
 
@@ -177,7 +182,7 @@ std::vector<Patch> patches_of(const Sky& sky, const Lobe& lobe)
 
 std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
                                std::span<const Strategy> strategies,
-                               const PredictTolerance& tolerance)
+                               const PredictTolerance& tolerance, const std::atomic<bool>* stop)
 {
     std::vector<Predicted> result(strategies.size());
     const Sky sky = sky_of(scene, probe);
@@ -189,7 +194,7 @@ std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
     const Lobe lobe = lobe_of(response);
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * (2 + 1 / lobe.width);
     const Plan plan(scene, probe, strategies);
-    const std::vector<Patch> patches = patches_of(sky, lobe);
+    const std::vector<Patch> patches = patches_of(sky, lobe, stop);
     for (const Group& group : plan.groups) {
         const double aim = group.jumps.empty() ? tolerance.smooth : tolerance.jumps;
         const std::vector<MomentFigures> figures =

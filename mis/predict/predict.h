@@ -3,6 +3,7 @@
 #include "mis/scene/scene.h"
 #include "mis/strategy/strategy.h"
 
+#include <atomic>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -33,10 +34,12 @@ struct PredictError : std::runtime_error {
 /// Exact mean, variance and fourth central moment of one sample of each strategy at a probe, by
 /// deterministic quadrature in double: no random numbers. Lights hide one another, the horizon cuts
 /// them, spheres among the surfaces occlude. The strategies are checked (strategy/strategy.h).
-/// Errors: PredictError where a mesh or quad could hide a light from the probe.
+/// Errors: PredictError where a mesh or quad could hide a light from the probe, and once *stop is
+/// set.
 /// Accuracy: the stated errors bound the true ones (predict_test.cpp); docs/theory-predict.md.
 std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
                                std::span<const Strategy> strategies,
-                               const PredictTolerance& tolerance = {});
+                               const PredictTolerance& tolerance = {},
+                               const std::atomic<bool>* stop = nullptr);
 
 }  // namespace mis

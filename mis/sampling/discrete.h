@@ -66,17 +66,29 @@ private:
     LargeVector<Cell> cells_;
 };
 
+/// A weight as it counts among so many, of which this is the largest: one that is not 0 has 2⁻⁵⁰ of
+/// all or more. Less, and the rounding of their running sum would leave it none: never drawn, it
+/// would be missing from the mean (docs/theory.md §7).
+MIS_INLINE double with_a_share(double weight, double largest, std::size_t count)
+{
+    const double least = largest * (0x1p-50 * static_cast<double>(count));
+    const double lifted = weight > least ? weight : least;
+    return weight > 0 ? lifted : 0;
+}
+
 /// An index in proportion to weights that change from point to point: a running sum over storage of
 /// the caller's.
 class RunningSum {
 public:
-    /// weights: not negative, finite. sums: of the same length, kept by reference.
+    /// weights: not negative, finite; few, as each that is not 0 gets a share. sums: of the same
+    /// length, kept by reference.
     template <class T>
     MIS_INLINE static RunningSum over(std::span<const T> weights, std::span<double> sums)
     {
-        double sum = 0;
+        double largest = 0, sum = 0;
+        for (const T weight : weights) largest = std::max(largest, static_cast<double>(weight));
         for (std::size_t i = 0; i < weights.size(); ++i)
-            sums[i] = sum += static_cast<double>(weights[i]);
+            sums[i] = sum += with_a_share(static_cast<double>(weights[i]), largest, weights.size());
         return RunningSum(sums);
     }
 

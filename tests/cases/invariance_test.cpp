@@ -203,6 +203,12 @@ const std::vector<std::string_view> smooth_strategies{
     "radiant-solid-angle/balance/union/one-sample",
     "all/balance",
     "all/power/union",
+    "irradiance/light/projected",
+    "irradiance/power",
+    "product/light",
+    "product/balance/projected",
+    "tree/light/projected",
+    "tree/power/union",
     "brdf",
     "cosine",
     "hemisphere"};
@@ -258,6 +264,38 @@ TEST_P(Invariance, TheOrderOfLightsChangesNoMeanAndNoVariance)
     Scene reversed = scene;
     std::reverse(reversed.lights.begin(), reversed.lights.end());
     expect_same_mean(scene, reversed, true);
+}
+
+/// Some hundred, so that tables have blocks and the hierarchy has levels.
+TEST(Invariance, TheOrderOfManyLightsChangesNoMeanAndNoVariance)
+{
+    Scene many = random_scene(first_scene);
+    Uniforms uniforms(17);
+    const Probe& probe = many.probes[0];
+    const Light pattern = many.lights[0];
+    many.lights.clear();
+    for (int k = 0; k < 200; ++k) {
+        const Vec3<double> aside = uniforms.direction() + probe.normal * 1.1;
+        many.lights.push_back(pattern);
+        many.lights.back().center = probe.position + aside * (2.0 + uniforms());
+        many.lights.back().radius = 0.001 + 0.004 * uniforms();
+    }
+    Scene shuffled = many;
+    std::reverse(shuffled.lights.begin(), shuffled.lights.end());
+    for (std::size_t k = 0; k + 7 < shuffled.lights.size(); k += 3)
+        std::swap(shuffled.lights[k], shuffled.lights[k + 7]);
+    const auto strategies =
+        strategies_of({"power/light", "irradiance/light", "product/power", "tree/light"});
+    const auto before = predict(many, many.probes[0], strategies, {.smooth = 1e-6}),
+               after = predict(shuffled, shuffled.probes[0], strategies, {.smooth = 1e-6});
+    for (std::size_t i = 0; i < strategies.size(); ++i) {
+        EXPECT_NEAR(after[i].mean, before[i].mean, 1e-5 * before[i].mean);
+        const Outcome outcome = run_case<float>(ReadyCase(shuffled), strategies[i],
+                                                kernels<float>(), scaled(20'000), 1);
+        // A hierarchy, and a table of blocks in float, price the lights as their order has it.
+        EXPECT_EQ(disagreement(outcome.result.luminance, after[i], strictness()), "")
+            << name_of(strategies[i]);
+    }
 }
 
 TEST_P(Invariance, ACopyListedAfterALightChangesNoMean)

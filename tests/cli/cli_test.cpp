@@ -253,6 +253,14 @@ TEST(CommandLine, FindsEveryShippedSceneLitAndFinite)
             if (s["name"] == "brdf") continue;  // may meet no light in so few draws
             EXPECT_GT(s["mean"].get<double>(), 0) << name;
         }
+        const Outcome others = mis_with(
+            "compare '" + scene(name) +
+            "' --resolution 24x16 --spp 16 --json - --quiet --strategy uniform/maximum,all/cutoff,"
+            "solid-angle/balance/union,irradiance/power/projected,product/cutoff/one-sample,"
+            "tree/maximum/projected/one-sample,uniform/power/union/one-sample,cosine,hemisphere");
+        ASSERT_EQ(others.exit, 0) << name << others.error;
+        for (const auto& s : nlohmann::json::parse(others.out)["scenes"][0]["strategies"])
+            EXPECT_EQ(s["invalid_samples"], 0) << name << " " << s["name"];
     }
 }
 

@@ -190,6 +190,24 @@ TEST_P(EveryPolicy, ALightThatCanContributeHasAProbability)
     }
 }
 
+/// However little it weighs beside what is listed before it.
+TEST_P(EveryPolicy, ALightListedAfterOneThatOutweighsItHasAProbability)
+{
+    const Lights bright{make_light({0, 2, 0}, 0.1, Vec3<double>(1e18)),
+                        make_light({1, 2, 0}, 0.1, Vec3<double>(1)),
+                        make_light({0, 2, 1}, 0.1, Vec3<double>(1))};
+    const Lights big{make_light({0, 2, 0}, 0.5, Vec3<double>(1)),
+                     make_light_of_power({1, 2, 0}, 1e-15, Vec3<double>(5)),
+                     make_light_of_power({0, 2, 1}, 1e-15, Vec3<double>(5))};
+    for (const Lights& lights : {bright, big})
+        for (const Numbers numbers : {Numbers::floats, Numbers::doubles, Numbers::lanes}) {
+            const Table table = table_of(lights, numbers);
+            EXPECT_GT(table->probability(1), 0);
+            EXPECT_GT(table->probability(2), 0);
+            EXPECT_NEAR(table->sum(), 1, rounding);
+        }
+}
+
 /// A radius whose square is no float, with the power of a lamp.
 TEST_P(EveryPolicy, ARadiusOf1e20IsALightLikeAnyOther)
 {

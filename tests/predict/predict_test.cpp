@@ -119,6 +119,18 @@ double clipped(double sine, double cos_beta)
     return sine * sine * exact_irradiance_over_sin2(sine, cos_beta);
 }
 
+TEST(Predict, EndsOnceItIsToldTo)
+{
+    Scene scene = empty_scene(lambert(0.5));
+    scene.lights.push_back(light_at(direction(0.3, 2), 0.1, 1));
+    std::atomic<bool> stop = false;
+    const Strategy strategy = parse_strategy("all/light");
+    const auto ask = [&] { return predict(scene, scene.probes[0], {&strategy, 1}, {}, &stop); };
+    EXPECT_GT(ask()[0].mean, 0);
+    stop = true;
+    EXPECT_THROW(ask(), PredictError);
+}
+
 TEST(Predict, TheHorizonCutsLights)
 {
     for (const double sigma : {0.9, 0.3, 0.02})
