@@ -259,7 +259,9 @@ TEST(CommandLine, FindsEveryShippedSceneLitAndFinite)
             "solid-angle/balance/union,irradiance/power/projected,product/cutoff/one-sample,"
             "tree/maximum/projected/one-sample,uniform/power/union/one-sample,cosine,hemisphere");
         ASSERT_EQ(others.exit, 0) << name << others.error;
-        for (const auto& s : nlohmann::json::parse(others.out)["scenes"][0]["strategies"])
+        const auto of_others = nlohmann::json::parse(others.out);
+        ASSERT_EQ(of_others["scenes"][0]["strategies"].size(), 9U) << name;
+        for (const auto& s : of_others["scenes"][0]["strategies"])
             EXPECT_EQ(s["invalid_samples"], 0) << name << " " << s["name"];
     }
 }
