@@ -6,7 +6,7 @@ namespace mis::bench {
 
 namespace {
 
-const std::string strategy = "solid-angle/power";
+const std::string of_bar_1 = "solid-angle/power";
 const std::vector<std::string> bsdfs{"lambert", "blinn", "ggx"};
 
 std::string name_of_run(const std::string& bsdf, std::string_view isa, const std::string& number)
@@ -42,12 +42,12 @@ void add_kernels()
             const LazyReady ready = bsdf == "ggx" ? ggx : blinn;
             benchmark::RegisterBenchmark(
                 name_of_run(bsdf, isa, "float").c_str(), [=](benchmark::State& state) {
-                    run_tiles(state, ready(), strategy, kernels_of<float>(isa),
+                    run_tiles(state, ready(), of_bar_1, kernels_of<float>(isa),
                               of_bsdf(ready(), bsdf));
                 });
             benchmark::RegisterBenchmark(
                 name_of_run(bsdf, isa, "double").c_str(), [=](benchmark::State& state) {
-                    run_tiles(state, ready(), strategy, kernels_of<double>(isa),
+                    run_tiles(state, ready(), of_bar_1, kernels_of<double>(isa),
                               of_bsdf(ready(), bsdf));
                 });
         }
