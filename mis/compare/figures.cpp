@@ -171,10 +171,10 @@ LogEstimate log_time_ratio(const Figures& a, const Figures& b)
     LogEstimate samples = log_contrast(std::span(a.relative_variances).first(n), a.sampling_share,
                                        std::span(b.relative_variances).first(n), b.sampling_share);
     samples.value = 0;  // is in the seconds already
-    // What the estimated means may do to either counts as two standard errors, beside the noise.
+    // What the estimated means may do to either: a bound, taken for two standard errors.
     const double doubt =
         std::hypot(a.relative_doubt * a.sampling_share, b.relative_doubt * b.sampling_share);
-    samples.se = std::hypot(samples.se, 0.5 * doubt);
+    samples = product(samples, {0, 0.5 * doubt, 1e6});
     return product(samples, log_median_ratio(a, b, &Figures::seconds_to_1_percent));
 }
 

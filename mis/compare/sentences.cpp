@@ -196,7 +196,8 @@ private:
             const double cost = of(i).seconds_per_sample.value / of(best).seconds_per_sample.value;
             say("Per sample " + name(i) + " has the least variance, " +
                 with_error(turned_over(p->ratio)) + " times less than " + name(best) +
-                (cost > 1 ? ", but its sample costs " + number(cost, 2) + " times as much" : ""));
+                (cost > 1.05 ? ", but its sample costs " + number(cost, 2) + " times as much"
+                             : ""));
             return;
         }
     }
