@@ -24,8 +24,8 @@ constexpr std::size_t fewest_looks = 1024;
 /// Sample numbers of the audit start here: no strategy draws from them.
 constexpr std::uint64_t first_sample = std::uint64_t{1} << 48;
 
-/// AuditIntegrals of one strategy at one point, from one group of draws: of w²F²/p of both
-/// techniques, and of wF of each.
+/// Integrals of one strategy at one point, from one group of draws: of w²F²/p of both techniques,
+/// and of wF of each.
 struct AuditIntegrals {
     double square = 0, light = 0, bsdf = 0;
 };

@@ -63,23 +63,22 @@ OrderedJson crossing_json(const CrossingReport& c, const CostSceneReport& scene)
 
 OrderedJson scene_json(const CostSceneReport& s)
 {
-    OrderedJson json{
-        {"file", s.file},
-        {"name", s.name},
-        {"lights", s.lights},
-        {"resolution", s.width > 0 ? OrderedJson{s.width, s.height} : OrderedJson(nullptr)},
-        {"shading_points", s.shading_points},
-        {"replicates", s.replicates},
-        {"copies", s.copies},
-        {"epsilon", json_figure(s.epsilon)},
-        {"partial", s.partial},
-        {"seconds", json_figure(s.seconds)},
-        {"reference",
-         {{"kind", s.reference.exact ? "exact" : "pooled"},
-          {"strategies", s.reference.sources},
-          {"samples", s.reference.samples},
-          {"error", json_figure(s.reference.error)},
-          {"agrees", s.reference.agrees}}}};
+    OrderedJson json{{"file", s.file},
+                     {"name", s.name},
+                     {"lights", s.lights},
+                     {"resolution", json_resolution(s.width, s.height)},
+                     {"shading_points", s.shading_points},
+                     {"replicates", s.replicates},
+                     {"copies", s.copies},
+                     {"epsilon", json_figure(s.epsilon)},
+                     {"partial", s.partial},
+                     {"seconds", json_figure(s.seconds)},
+                     {"reference",
+                      {{"kind", s.reference.exact ? "exact" : "pooled"},
+                       {"strategies", s.reference.sources},
+                       {"samples", s.reference.samples},
+                       {"error", json_figure(s.reference.error)},
+                       {"agrees", s.reference.agrees}}}};
     json["strategies"] = OrderedJson::array();
     for (const CostCurveReport& c : s.curves) json["strategies"].push_back(curve_json(c));
     json["crossings"] = OrderedJson::array();
@@ -147,16 +146,8 @@ const char* name_of(Precision precision)
 
 std::string cost_json(const CostReport& report)
 {
-    OrderedJson json{{"format", "mis-cost/1"},
-                     {"version", report.version},
-                     {"command", report.command},
-                     {"seed", report.seed},
-                     {"sampler", sampler_name(report.is_sobol)},
-                     {"threads", report.threads},
-                     {"machine", report.machine},
-                     {"instruction_set", report.instruction_set},
-                     {"partial", report.partial},
-                     {"scenes", OrderedJson::array()}};
+    OrderedJson json = json_head("mis-cost/1", report);
+    json["scenes"] = OrderedJson::array();
     for (const CostSceneReport& s : report.scenes) json["scenes"].push_back(scene_json(s));
     return json_text(json);
 }

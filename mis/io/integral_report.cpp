@@ -10,10 +10,6 @@
 namespace mis {
 namespace {
 
-OrderedJson figure(double value)
-{
-    return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
-}
 std::string field(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 double share_below_horizon(const HemisphereRun& run)
@@ -30,22 +26,22 @@ OrderedJson exponent(const HemisphereEstimator& estimator)
 OrderedJson exactly(const HemisphereEstimator& estimator)
 {
     const ExactHemisphere e = exact(estimator);
-    return {{"mean", figure(e.mean)},
-            {"variance", figure(e.variance)},
-            {"log10_variance", figure(e.log10_variance)},
-            {"largest_value", figure(e.largest_value)},
-            {"log10_largest_value", figure(e.log10_largest_value)},
-            {"below_horizon", figure(e.below_horizon)}};
+    return {{"mean", json_figure(e.mean)},
+            {"variance", json_figure(e.variance)},
+            {"log10_variance", json_figure(e.log10_variance)},
+            {"largest_value", json_figure(e.largest_value)},
+            {"log10_largest_value", json_figure(e.log10_largest_value)},
+            {"below_horizon", json_figure(e.below_horizon)}};
 }
 
 OrderedJson measured(const HemisphereRun& run, double integral)
 {
     return {{"samples", run.values.count},
-            {"mean", figure(run.values.mean)},
-            {"mean_se", figure(run.values.mean_se())},
-            {"error", figure(run.values.mean - integral)},
-            {"variance", figure(run.values.variance())},
-            {"variance_se", figure(run.values.variance_se())},
+            {"mean", json_figure(run.values.mean)},
+            {"mean_se", json_figure(run.values.mean_se())},
+            {"error", json_figure(run.values.mean - integral)},
+            {"variance", json_figure(run.values.variance())},
+            {"variance_se", json_figure(run.values.variance_se())},
             {"below_horizon", share_below_horizon(run)}};
 }
 
@@ -79,7 +75,6 @@ std::string integral_json(const IntegralReport& report)
     json["densities"] = OrderedJson::array();
     for (const IntegralReport::Entry& entry : report.densities)
         json["densities"].push_back(density(entry));
-    // A command line may hold bytes that are not UTF-8; JSON cannot.
     return json_text(json);
 }
 

@@ -21,6 +21,11 @@ OrderedJson json_interval(const Interval& x)
             {"high", json_figure(x.high)}};
 }
 
+OrderedJson json_resolution(int width, int height)
+{
+    return width > 0 ? OrderedJson{width, height} : OrderedJson(nullptr);
+}
+
 OrderedJson json_identity(const Strategy& s)
 {
     return {{"name", name_of(s)},

@@ -80,20 +80,19 @@ OrderedJson effect(const EffectPlan& e)
 
 OrderedJson scene(const SceneReport& s, const Report& report)
 {
-    OrderedJson json{
-        {"file", s.file},
-        {"name", s.name},
-        {"lights", s.lights},
-        {"surfaces", s.surfaces},
-        {"triangles", s.triangles},
-        {"resolution", s.width > 0 ? OrderedJson{s.width, s.height} : OrderedJson(nullptr)},
-        {"shading_points", s.shading_points},
-        {"background_pixels", s.background_pixels},
-        {"replicates", s.replicates},
-        {"epsilon", json_figure(s.epsilon)},
-        {"settled", s.settled},
-        {"partial", s.partial},
-        {"seconds", json_figure(s.seconds)}};
+    OrderedJson json{{"file", s.file},
+                     {"name", s.name},
+                     {"lights", s.lights},
+                     {"surfaces", s.surfaces},
+                     {"triangles", s.triangles},
+                     {"resolution", json_resolution(s.width, s.height)},
+                     {"shading_points", s.shading_points},
+                     {"background_pixels", s.background_pixels},
+                     {"replicates", s.replicates},
+                     {"epsilon", json_figure(s.epsilon)},
+                     {"settled", s.settled},
+                     {"partial", s.partial},
+                     {"seconds", json_figure(s.seconds)}};
     json["effects"] = OrderedJson::object();
     for (const EffectPlan& e : s.effects) json["effects"][e.name] = effect(e);
     json["strategies"] = OrderedJson::array();
@@ -135,17 +134,9 @@ const char* name_of(Verdict verdict)
 
 std::string report_json(const Report& report)
 {
-    OrderedJson json{{"format", report_format},
-                     {"version", report.version},
-                     {"command", report.command},
-                     {"seed", report.seed},
-                     {"sampler", sampler_name(report.is_sobol)},
-                     {"threads", report.threads},
-                     {"machine", report.machine},
-                     {"instruction_set", report.instruction_set},
-                     {"partial", report.partial},
-                     {"margin", json_figure(report.margin)},
-                     {"at", json_figure(report.at)}};
+    OrderedJson json = json_head(report_format, report);
+    json["margin"] = json_figure(report.margin);
+    json["at"] = json_figure(report.at);
     json["scenes"] = OrderedJson::array();
     for (const SceneReport& s : report.scenes) json["scenes"].push_back(scene(s, report));
     json["overall"] = OrderedJson::array();
