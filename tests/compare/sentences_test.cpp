@@ -97,6 +97,7 @@ TEST(Sentences, QuoteNoGainOverWhatMayBeAsGood)
                   simulate("power", uniform_samples(0.9))}));
     expect_said(text, "times sooner than power/power");
     EXPECT_EQ(text.find("sooner than uniform"), std::string::npos) << text;
+    EXPECT_EQ(text.find("sooner than a/"), std::string::npos) << text;  // whichever leads
 }
 
 TEST(Sentences, DoNotCallSureWhatAnUnresolvedStrategyMayBeat)
