@@ -32,7 +32,7 @@ const Graph may_include{
     {"engine",
      {"technique", "heuristic", "strategy", "effects", "run/executor.h", "run/pool.h",
       "run/serial.h"}},
-    {"predict", {"technique", "heuristic", "strategy"}},
+    {"predict", {"technique", "heuristic", "strategy", "run/executor.h"}},
     {"compare", {"engine", "predict", "run/executor.h", "run/pool.h", "run/serial.h"}},
     {"run", {"math"}},
     {"io", {"compare"}},

@@ -19,12 +19,13 @@ namespace {
 
 /// The figures of a probe, or why there are none.
 PredictReport::Probe predicted(const Scene& scene, const Probe& probe,
-                               const std::vector<Strategy>& strategies,
+                               const std::vector<Strategy>& strategies, const AnyExecutor& executor,
                                const PredictTolerance& tolerance)
 {
     if (interrupt_flag()) return {.figures = {}, .refusal = "interrupted"};
     try {
-        return {.figures = predict(scene, probe, strategies, tolerance, &interrupt_flag()),
+        return {.figures = predict(scene, probe, strategies, tolerance,
+                                   {.executor = &executor, .stop = &interrupt_flag()}),
                 .refusal = {}};
     } catch (const PredictError& error) {
         return {.figures = {}, .refusal = error.what()};
@@ -45,7 +46,8 @@ PredictReport::Scene predicted_scene(const Scene& scene, const StrategySelection
     std::size_t done = 0;
     progress.show("integrating", 0);
     executor.for_each(scene.probes.size(), [&](std::size_t p) {
-        result.probes[p] = predicted(scene, scene.probes[p], selection.strategies, tolerance);
+        result.probes[p] =
+            predicted(scene, scene.probes[p], selection.strategies, executor, tolerance);
         const std::lock_guard lock(showing);
         progress.show("integrating", double(++done) / double(scene.probes.size()));
     });

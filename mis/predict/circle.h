@@ -22,8 +22,8 @@ struct Polar {
     Vec3<double> around(double phi) const { return e1 * std::cos(phi) + e2 * std::sin(phi); }
     Vec3<double> offset(const Vec3<double>& around_phi, double theta) const
     {
-        const double half = std::sin(theta / 2);
-        return around_phi * std::sin(theta) - pole * (2 * half * half);
+        const double half_sine = std::sin(theta / 2), half_cosine = std::cos(theta / 2);
+        return around_phi * (2 * half_sine * half_cosine) - pole * (2 * half_sine * half_sine);
     }
     double azimuth(const Vec3<double>& w) const { return std::atan2(dot(w, e2), dot(w, e1)); }
 };
@@ -63,9 +63,9 @@ struct Circle {
         return {2 * up, dot(axis, polar.e1), dot(axis, polar.e2), -2 * up, 1, ball};
     }
 
-    Chord chord(double phi) const
+    Chord chord(double phi) const { return chord(std::cos(phi), std::sin(phi)); }
+    Chord chord(double cos_phi, double sin_phi) const
     {
-        const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
         const double b = bx * cos_phi + by * sin_phi;
         const double past =
             bx * sin_phi - by * cos_phi;  // how far off the centre the meridian passes

@@ -84,11 +84,17 @@ std::vector<double> crossings(const std::function<double(double)>& f, std::span<
 
 std::vector<double> looking_points(double begin, double end, int count)
 {
-    std::vector<double> points;
-    for (int i = 0; i < count; ++i) {
+    static thread_local std::vector<std::vector<double>> shares;  // by count: asked for often
+    if (shares.size() <= static_cast<std::size_t>(count))
+        shares.resize(static_cast<std::size_t>(count) + 1);
+    std::vector<double>& share = shares[static_cast<std::size_t>(count)];
+    for (int i = static_cast<int>(share.size()); i < count; ++i) {
         const double s = std::sin(std::numbers::pi / 2 * i / (count - 1));
-        points.push_back(begin + (end - begin) * (1e-12 + s * s * (1 - 2e-12)));
+        share.push_back(1e-12 + s * s * (1 - 2e-12));
     }
+    std::vector<double> points;
+    points.reserve(share.size());
+    for (const double s : share) points.push_back(begin + (end - begin) * s);
     return points;
 }
 

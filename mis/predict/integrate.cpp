@@ -143,13 +143,14 @@ private:
         for (const double hint : meridian_.hints)
             if (hint > looks.front() && hint < looks.back()) looks.push_back(hint);
         std::sort(looks.begin(), looks.end());
-        return crossings([&](double theta) { return log_ratio(stretch, theta); }, looks, levels_);
+        return crossings([&](double theta) { return log_ratio(meridian_, stretch, theta); }, looks,
+                         levels_);
     }
 
-    double log_ratio(const Stretch& stretch, double theta) const
+    double log_ratio(const Meridian& meridian, const Stretch& stretch, double theta) const
     {
         // At the horizon the BSDF's density may round to 0: far from every jump, and finite.
-        return std::clamp(std::log(evaluator_.ratio(meridian_.around, theta, stretch, meridian_)),
+        return std::clamp(std::log(evaluator_.ratio(meridian.around, theta, stretch, meridian)),
                           -700.0, 700.0);
     }
 
@@ -182,15 +183,25 @@ private:
     {
         patch_.meridian((begin + end) / 2, meridian_);
         const std::size_t stretches = meridian_.stretches.size();
+        if (stretches == 0) return;
+        const std::vector<double> looks = looking_points(begin, end, 16);
+        std::vector<Meridian> seen(looks.size());  // every end of a stretch is looked at in these
+        for (std::size_t i = 0; i < looks.size(); ++i) patch_.meridian(looks[i], seen[i]);
+        const auto meridian_at = [&](double phi) -> const Meridian& {
+            const auto found = std::lower_bound(looks.begin(), looks.end(), phi);
+            if (found != looks.end() && *found == phi)
+                return seen[static_cast<std::size_t>(found - looks.begin())];
+            patch_.meridian(phi, meridian_);
+            return meridian_;
+        };
         for (std::size_t k = 0; k < 2 * stretches; ++k) {
             const auto ratio_at_end = [&](double phi) {
-                patch_.meridian(phi, meridian_);
-                if (meridian_.stretches.size() != stretches) return std::nan("");
-                const Stretch& stretch = meridian_.stretches[k / 2];
-                return log_ratio(stretch, k % 2 == 0 ? stretch.begin : stretch.end);
+                const Meridian& meridian = meridian_at(phi);
+                if (meridian.stretches.size() != stretches) return nan;
+                const Stretch& stretch = meridian.stretches[k / 2];
+                return log_ratio(meridian, stretch, k % 2 == 0 ? stretch.begin : stretch.end);
             };
-            const std::vector<double> more =
-                crossings(ratio_at_end, looking_points(begin, end, 16), levels_);
+            const std::vector<double> more = crossings(ratio_at_end, looks, levels_);
             azimuths.insert(azimuths.end(), more.begin(), more.end());
         }
     }

@@ -26,15 +26,34 @@ bool is_smaller(const Ball& a, const Ball& b)
            (a.one_minus_cos == b.one_minus_cos && a.light < b.light);
 }
 
-/// θ in (0, π) where cos²θ·oo + 2 sin θ cos θ·oe + sin²θ·ee = 0.
-void add_roots(double oo, double oe, double ee, std::vector<double>& angles)
+/// Adds the θ between two others, in (0, π), where tan θ = rise/run.
+class Between {
+public:
+    Between(double begin, double end, std::vector<double>& angles)
+        : cos_begin_(std::cos(begin)), sin_begin_(std::sin(begin)), cos_end_(std::cos(end)),
+          sin_end_(std::sin(end)), angles_(angles)
+    {
+    }
+    void add(double rise, double run)
+    {
+        if (rise < 0) rise = -rise, run = -run;
+        if (rise * cos_begin_ > run * sin_begin_ && rise * cos_end_ < run * sin_end_)
+            angles_.push_back(std::atan2(rise, run));
+    }
+
+private:
+    double cos_begin_, sin_begin_, cos_end_, sin_end_;
+    std::vector<double>& angles_;
+};
+
+/// θ where cos²θ·oo + 2 sin θ cos θ·oe + sin²θ·ee = 0.
+void add_roots(double oo, double oe, double ee, Between& between)
 {
     const double root2 = oe * oe - oo * ee;
     if (root2 < 0) return;
     const double s = -(oe + std::copysign(std::sqrt(root2), oe));
-    for (const double angle : {std::atan2(s, ee), std::atan2(oo, s)}) {  // of tan θ = s/ee and oo/s
-        angles.push_back(angle < 0 ? angle + pi<double> : angle);
-    }
+    between.add(s, ee);
+    between.add(oo, s);
 }
 
 /// What a meridian meets, in order: the nearest light of each stretch and all along it.
@@ -123,14 +142,27 @@ void Patch::add_circle(int index)
 
 void Patch::add_pairs()
 {
-    std::vector<int> solid = walls_;
-    for (const Circle& circle : circles_)
-        if (circle.ball >= 0 && sky_->ball(circle.ball).stands == Ball::Stands::apart)
-            solid.push_back(circle.ball);
+    std::vector<int> solid;
+    for (std::size_t i = 0; i < walls_.size(); ++i) solid.push_back(-1 - static_cast<int>(i));
+    for (std::size_t i = 0; i < circles_.size(); ++i)
+        if (i != horizon && sky_->ball(circles_[i].ball).stands == Ball::Stands::apart)
+            solid.push_back(static_cast<int>(i));
     for (std::size_t i = 0; i < solid.size(); ++i)
-        for (std::size_t k = i + 1; k < solid.size(); ++k)
-            if (interlock(sky_->ball(solid[i]), sky_->ball(solid[k])))
-                interlocked_.push_back({solid[i], solid[k]});
+        for (std::size_t k = i + 1; k < solid.size(); ++k) {
+            const Ball& a = sky_->ball(ball_of(solid[i]));
+            const Ball& b = sky_->ball(ball_of(solid[k]));
+            if (!interlock(a, b)) continue;
+            const Vec3<double> m = (b.to_center - a.to_center) * 2.0;
+            interlocked_.push_back({solid[i], solid[k], m, a.to_center, b.cap.gap2 - a.cap.gap2,
+                                    a.cap.gap2, dot(m, polar_.pole),
+                                    dot(a.to_center, polar_.pole)});
+        }
+}
+
+int Patch::ball_of(int circle_or_wall) const
+{
+    return circle_or_wall < 0 ? walls_[static_cast<std::size_t>(-1 - circle_or_wall)]
+                              : circles_[static_cast<std::size_t>(circle_or_wall)].ball;
 }
 
 std::vector<double> Patch::all_azimuths() const
@@ -159,11 +191,7 @@ std::vector<double> Patch::known_azimuths() const
     const auto add = [&](double phi) { all.push_back(std::remainder(phi, two_pi<double>)); };
     const auto add_point = [&](const PlanePoint& point) {
         if (!std::isfinite(point.phi)) return;
-        const Chord chord = circles_[own].chord(point.phi);
-        constexpr double rounding = 1e-6;  // a break too many is harmless
-        if (chord.inverted ||
-            (point.tau > chord.low * (1 - rounding) && point.tau < chord.high * (1 + rounding)))
-            add(point.phi);
+        if (!is_clearly_elsewhere(point)) add(point.phi);
     };
     const bool looks_from_lobe = pole_is_lobe_ || !lobe_.is_narrower_than(1);
     const double toward = polar_.azimuth(looks_from_lobe ? sky_->n : lobe_.direction);
@@ -181,10 +209,12 @@ std::vector<double> Patch::known_azimuths() const
         add_point({polar_.azimuth(w), std::sqrt(half_chord2 / (1 - half_chord2))});
     };
     for (const Vec3<double>& turn : lobe_.turns) add_direction(turn);
-    for (const auto& [first, second] : interlocked_)
-        for (const auto& [ends, other] : {std::array{first, second}, std::array{second, first}})
-            if (sky_->ball(ends).stands == Ball::Stands::apart)
-                for (const Vec3<double>& w : rims_in_common(sky_->ball(ends), sky_->ball(other)))
+    for (const Pair& pair : interlocked_)
+        for (const auto& [ends, other] :
+             {std::array{pair.first, pair.second}, std::array{pair.second, pair.first}})
+            if (ends >= 0)
+                for (const Vec3<double>& w :
+                     rims_in_common(sky_->ball(ball_of(ends)), sky_->ball(ball_of(other))))
                     add_direction(w);
     std::sort(all.begin(), all.end());
     std::vector<double> breaks;
@@ -194,48 +224,70 @@ std::vector<double> Patch::known_azimuths() const
     return breaks;
 }
 
-double Patch::distance(int index, const Vec3<double>& offset) const
+/// Is a point outside this patch, and not just at its rim?
+bool Patch::is_clearly_elsewhere(const PlanePoint& point) const
+{
+    const double cos_phi = std::cos(point.phi), sin_phi = std::sin(point.phi);
+    constexpr double rounding = 1e-6;  // a point too many is harmless
+    for (std::size_t i = 0; i < circles_.size(); ++i) {
+        if (i > horizon && !smaller_[i]) continue;
+        const Chord chord = circles_[i].chord(cos_phi, sin_phi);
+        const bool patch_is_between = (i <= horizon) != chord.inverted;
+        const double slack = patch_is_between ? rounding : -rounding;
+        const bool is_between =
+            point.tau >= chord.low * (1 - slack) && point.tau <= chord.high * (1 + slack);
+        if (is_between != patch_is_between) return true;
+    }
+    return false;
+}
+
+double Patch::distance_to_wall(int index, const Vec3<double>& offset) const
 {
     const Ball& ball = sky_->ball(index);
+    const Vec3<double> w = polar_.pole + offset;
+    const double along = dot(ball.to_center, w), q = length(cross(ball.to_center, w));
+    return std::max(0.0, along + std::sqrt(std::max(0.0, (ball.radius - q) * (ball.radius + q))));
+}
+
+double Patch::distance_to_cap(std::size_t circle, const Vec3<double>& offset) const
+{
+    const Ball& ball = sky_->ball(circles_[circle].ball);
     if (ball.stands == Ball::Stands::beneath) return 0;
-    if (ball.stands == Ball::Stands::around) {
-        const Vec3<double> w = polar_.pole + offset;
-        const double along = dot(ball.to_center, w), q = length(cross(ball.to_center, w));
-        return std::max(0.0,
-                        along + std::sqrt(std::max(0.0, (ball.radius - q) * (ball.radius + q))));
-    }
-    std::size_t i = own;
-    while (circles_[i].ball != index) ++i;
     const double half_chord2 =
-        length2(offset - deltas_[i]) / 2;  // 1 − cos of the angle to the axis
+        length2(offset - deltas_[circle]) / 2;  // 1 − cos of the angle to the axis
     const double sin2 = half_chord2 * (2 - half_chord2);
     const double rest = std::sqrt(std::max(0.0, ball.sin_max * ball.sin_max - sin2));
     return ball.cap.gap2 / (ball.cap.distance * (1 - half_chord2 + rest));
 }
 
-void Patch::add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low,
-                       double high, std::vector<double>& breaks) const
+/// Which circles hold the direction at θ? False if it is not this patch's.
+bool Patch::find_held(double theta, const std::vector<Chord>& chords, std::vector<char>& held) const
 {
-    const auto add = [&](double theta) {
-        if (theta > low && theta < high) breaks.push_back(theta);
-    };
-    for (const Chord& chord : chords)
-        for (const double tau : {chord.low, chord.high})
-            if (tau > 0) add(2 * std::atan(tau));
-    std::vector<double> angles;
-    for (const auto& [first, second] : interlocked_) {
-        const Ball& a = sky_->ball(first);
-        const Ball& b = sky_->ball(second);
-        const Vec3<double> m = (b.to_center - a.to_center) * 2.0, o = polar_.pole;
-        const double h = b.cap.gap2 - a.cap.gap2, gap = a.cap.gap2;
-        const double mo = dot(m, o), me = dot(m, around), co = dot(a.to_center, o),
-                     ce = dot(a.to_center, around);
-        add_roots(h * h - 2 * h * mo * co + gap * mo * mo, -h * (mo * ce + me * co) + gap * mo * me,
-                  h * h - 2 * h * me * ce + gap * me * me, angles);
-        angles.push_back(std::atan2(mo, -me) < 0 ? std::atan2(mo, -me) + pi<double>
-                                                 : std::atan2(mo, -me));
+    const double tau = std::tan(theta / 2);
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+        held[i] = chords[i].holds(tau);
+        if (i <= horizon ? !held[i] : held[i] && smaller_[i]) return false;
     }
-    for (const double angle : angles) add(angle);
+    return true;
+}
+
+/// Where two interlocked balls that both stand there change places (docs/theory-predict.md, P15).
+void Patch::add_swaps(const Vec3<double>& around, double begin, double end,
+                      const std::vector<char>& held, std::vector<double>& breaks) const
+{
+    if (interlocked_.empty()) return;
+    Between between(begin, end, breaks);
+    const auto stands = [&](int which) {
+        return which < 0 || held[static_cast<std::size_t>(which)] != 0;
+    };
+    for (const Pair& p : interlocked_) {
+        if (!stands(p.first) || !stands(p.second)) continue;
+        const double me = dot(p.m, around), ce = dot(p.center, around);
+        add_roots(p.h * p.h - 2 * p.h * p.mo * p.co + p.gap * p.mo * p.mo,
+                  -p.h * (p.mo * ce + me * p.co) + p.gap * p.mo * me,
+                  p.h * p.h - 2 * p.h * me * ce + p.gap * me * me, between);
+        between.add(p.mo, -me);
+    }
     std::sort(breaks.begin(), breaks.end());
 }
 
@@ -249,56 +301,70 @@ void Patch::add_hints(double high, Meridian& out) const
     }
 }
 
-bool Patch::describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around,
-                     Meridian& out, Stretch& stretch) const
+bool Patch::describe(double theta, const std::vector<char>& held, Meridian& out,
+                     Stretch& stretch) const
 {
-    const double tau = std::tan(theta / 2);
-    const Vec3<double> offset = polar_.offset(around, theta);
-    if (!chords[own].holds(tau) || !chords[horizon].holds(tau)) return false;
+    const Vec3<double> offset = polar_.offset(out.around, theta);
     double nearest = std::numeric_limits<double>::infinity();
     stretch.nearest = -1;
-    const auto meet = [&](int ball, int local) {
-        const double t = distance(ball, offset);
+    const auto meet = [&](double t, int ball, int local) {
         if (t > nearest || (t == nearest && ball > stretch.nearest)) return;
         nearest = t, stretch.nearest = ball, stretch.nearest_local = local;
     };
     stretch.first_along = out.along.size();
     for (std::size_t i = 0; i < circles_.size(); ++i) {
-        if (i == horizon || !chords[i].holds(tau)) continue;
-        if (smaller_[i]) {
-            out.along.resize(stretch.first_along);
-            return false;
-        }
+        if (i == horizon || !held[i]) continue;
         if (local_of_circle_[i] >= 0) out.along.push_back(local_of_circle_[i]);
-        meet(circles_[i].ball, local_of_circle_[i]);
+        meet(distance_to_cap(i, offset), circles_[i].ball, local_of_circle_[i]);
     }
-    for (const int wall : walls_) meet(wall, -1);
+    for (const int wall : walls_) meet(distance_to_wall(wall, offset), wall, -1);
     stretch.along = out.along.size() - stretch.first_along;
     return sky_->ball(stretch.nearest).shines();
+}
+
+/// What is met between two ends of chords: the same balls all along, in orders that may change.
+void Patch::add_stretches(double begin, double end, const std::vector<char>& held,
+                          Meridian& out) const
+{
+    std::vector<double> breaks{begin};
+    add_swaps(out.around, begin, end, held, breaks);
+    breaks.push_back(end);
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+        if (!(breaks[i + 1] - breaks[i] > 1e-15 * end)) continue;
+        Stretch stretch{.begin = breaks[i], .end = breaks[i + 1]};
+        if (!describe((breaks[i] + breaks[i + 1]) / 2, held, out, stretch)) continue;
+        if (goes_on(out, stretch)) out.stretches.back().end = stretch.end;
+        else out.stretches.push_back(stretch);
+    }
 }
 
 void Patch::meridian(double phi, Meridian& out) const
 {
     if (stop_ != nullptr && *stop_) throw PredictError("interrupted");
-    out.around = polar_.around(phi);
+    const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
+    out.around = polar_.e1 * cos_phi + polar_.e2 * sin_phi;
     out.stretches.clear(), out.along.clear(), out.hints.clear();
     std::vector<Chord> chords(circles_.size());
-    for (std::size_t i = 0; i < circles_.size(); ++i) chords[i] = circles_[i].chord(phi);
+    for (std::size_t i = 0; i < circles_.size(); ++i)
+        chords[i] = circles_[i].chord(cos_phi, sin_phi);
     // Both ends of the own cap; all of it where it holds the antipode of the pole.
     const bool reaches_round = chords[own].inverted;
     const double low = reaches_round ? 0 : 2 * std::atan(std::max(0.0, chords[own].low));
     const double high = reaches_round ? pi<double> : 2 * std::atan(std::max(0.0, chords[own].high));
     if (!(low < high)) return;
     std::vector<double> breaks{low};
-    add_breaks(chords, out.around, low, high, breaks);
+    for (const Chord& chord : chords)
+        for (const double tau : {chord.low, chord.high})
+            if (tau > 0 && (reaches_round || (tau >= chords[own].low && tau <= chords[own].high)))
+                if (const double theta = 2 * std::atan(tau); theta > low && theta < high)
+                    breaks.push_back(theta);
+    std::sort(breaks.begin(), breaks.end());
     breaks.push_back(high);
-    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-        if (!(breaks[i + 1] - breaks[i] > 1e-15 * high)) continue;
-        Stretch stretch{.begin = breaks[i], .end = breaks[i + 1]};
-        if (!describe((breaks[i] + breaks[i + 1]) / 2, chords, out.around, out, stretch)) continue;
-        if (goes_on(out, stretch)) out.stretches.back().end = stretch.end;
-        else out.stretches.push_back(stretch);
-    }
+    std::vector<char> held(circles_.size());
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i)
+        if (breaks[i + 1] - breaks[i] > 1e-15 * high &&
+            find_held((breaks[i] + breaks[i + 1]) / 2, chords, held))
+            add_stretches(breaks[i], breaks[i + 1], held, out);
     add_hints(high, out);
 }
 

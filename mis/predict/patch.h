@@ -45,16 +45,30 @@ public:
     void meridian(double phi, Meridian& out) const;
 
 private:
+    /// Two balls whose surfaces meet: numbers of their circles or, for walls, −1 − their numbers in
+    /// walls_. What the curve of equal distance (P15) takes from them, o being the pole.
+    struct Pair {
+        int first, second;
+        Vec3<double> m, center;
+        double h, gap, mo, co;
+    };
+
     void add_circle(int ball);
     void add_pairs();
+    int ball_of(int circle_or_wall) const;
     std::vector<double> all_azimuths() const;
     std::vector<double> known_azimuths() const;
-    double distance(int ball, const Vec3<double>& offset) const;
-    void add_breaks(const std::vector<Chord>& chords, const Vec3<double>& around, double low,
-                    double high, std::vector<double>& breaks) const;
+    bool is_clearly_elsewhere(const PlanePoint& point) const;
+    double distance_to_cap(std::size_t circle, const Vec3<double>& offset) const;
+    double distance_to_wall(int ball, const Vec3<double>& offset) const;
     void add_hints(double high, Meridian& out) const;
-    bool describe(double theta, const std::vector<Chord>& chords, const Vec3<double>& around,
-                  Meridian& out, Stretch& stretch) const;
+    bool find_held(double theta, const std::vector<Chord>& chords, std::vector<char>& held) const;
+    void add_swaps(const Vec3<double>& around, double begin, double end,
+                   const std::vector<char>& held, std::vector<double>& breaks) const;
+    void add_stretches(double begin, double end, const std::vector<char>& held,
+                       Meridian& out) const;
+    bool describe(double theta, const std::vector<char>& held, Meridian& out,
+                  Stretch& stretch) const;
 
     const Sky* sky_;
     int light_;
@@ -63,10 +77,10 @@ private:
     bool pole_is_lobe_ = false;
     std::vector<int> lights_, walls_;  ///< walls: surfaces that the point is inside of
     std::vector<Circle> circles_;      ///< [0]: the own cap, [1]: the horizon, then the neighbours'
-    std::vector<Vec3<double>> deltas_;             ///< of the circles' axes from the pole
-    std::vector<int> local_of_circle_;             ///< number in lights_, −1 for none
-    std::vector<bool> smaller_;                    ///< is the circle's cap that of a smaller light?
-    std::vector<std::array<int, 2>> interlocked_;  ///< pairs of balls
+    std::vector<Vec3<double>> deltas_;  ///< of the circles' axes from the pole
+    std::vector<int> local_of_circle_;  ///< number in lights_, −1 for none
+    std::vector<bool> smaller_;         ///< is the circle's cap that of a smaller light?
+    std::vector<Pair> interlocked_;
     std::vector<double> azimuths_;
     const std::atomic<bool>* stop_;
 };

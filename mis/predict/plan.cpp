@@ -61,8 +61,11 @@ void Plan::add_to_groups(std::size_t strategy)
         if (!group.jumps.empty()) group.density = s.density;
     }
     for (Group& other : groups) {
-        if (other.jumps != group.jumps || other.density != group.density) continue;
+        if (other.density != group.density) continue;
         other.strategies.push_back(strategy);
+        other.jumps.insert(other.jumps.end(), group.jumps.begin(), group.jumps.end());
+        std::sort(other.jumps.begin(), other.jumps.end());
+        other.jumps.erase(std::unique(other.jumps.begin(), other.jumps.end()), other.jumps.end());
         return;
     }
     groups.push_back(std::move(group));

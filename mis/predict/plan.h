@@ -29,11 +29,11 @@ struct LightDensity {
 };
 
 /// Strategies that are integrated at shared nodes: all whose weights are smooth, or those whose
-/// weights jump where one ratio of densities takes one of these values.
+/// weights jump where the ratio of the BSDF's density to one light density takes some values.
 struct Group {
     std::vector<std::size_t> strategies;
-    std::vector<double> jumps;  ///< of BSDF density over light density, counts left out
-    int density = -1;           ///< which light density
+    std::vector<double> jumps;  ///< of BSDF density over light density, counts left out; ascending
+    int density = -1;           ///< which light density; −1: all are smooth
 };
 
 /// Some strategies at one probe.

@@ -27,8 +27,7 @@ public:
     std::vector<MomentFigures> run()
     {
         std::vector<StrategyMoments> moments = pass(false);
-        shift_by(moments);
-        moments = pass(false);
+        if (shift_by(moments)) moments = pass(false);
         for (int round = 0; round < 3; ++round) {
             const std::vector<MomentFigures> expected = figures(moments);
             set_tolerances(moments, expected);
@@ -82,9 +81,10 @@ private:
         return any;
     }
 
-    /// Takes the means as shifts where every draw counts.
-    void shift_by(const std::vector<StrategyMoments>& moments)
+    /// Takes the means as shifts where every draw counts; false if that is nowhere so.
+    bool shift_by(const std::vector<StrategyMoments>& moments)
     {
+        bool any = false;
         for (const std::size_t s : group_.strategies) {
             const StrategyPlan& plan = plan_.strategies[s];
             if (plan.density < 0 || plan.is_one_sample) continue;
@@ -95,11 +95,12 @@ private:
             std::vector<DrawMoments>& light = empty_[s].light;
             if (plan.draws_every_light) {
                 for (std::size_t j = 0; j < light.size(); ++j)
-                    if (counts[j]) light[j].shift = moments[s].light[j].sums.value[0];
-                continue;
+                    if (counts[j]) light[j].shift = moments[s].light[j].sums.value[0], any = true;
+            } else if (only_where(counts, p)) {
+                light.front().shift = moments[s].light.front().sums.value[0], any = true;
             }
-            if (only_where(counts, p)) light.front().shift = moments[s].light.front().sums.value[0];
         }
+        return any;
     }
 
     /// Absolute tolerances of the four moments of each draw, such that the figures meet the
@@ -182,7 +183,7 @@ std::vector<Patch> patches_of(const Sky& sky, const Lobe& lobe, const std::atomi
 
 std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
                                std::span<const Strategy> strategies,
-                               const PredictTolerance& tolerance, const std::atomic<bool>* stop)
+                               const PredictTolerance& tolerance, const PredictRun& run)
 {
     std::vector<Predicted> result(strategies.size());
     const Sky sky = sky_of(scene, probe);
@@ -194,8 +195,9 @@ std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
     const Lobe lobe = lobe_of(response);
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * (2 + 1 / lobe.width);
     const Plan plan(scene, probe, strategies);
-    const std::vector<Patch> patches = patches_of(sky, lobe, stop);
-    for (const Group& group : plan.groups) {
+    const std::vector<Patch> patches = patches_of(sky, lobe, run.stop);
+    const auto predict_group = [&](std::size_t g) {
+        const Group& group = plan.groups[g];
         const double aim = group.jumps.empty() ? tolerance.smooth : tolerance.jumps;
         const std::vector<MomentFigures> figures =
             GroupPrediction(sky, response, plan, group, patches, aim, rounding).run();
@@ -204,7 +206,10 @@ std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
             result[group.strategies[i]] = {f.mean.value,     f.mean.error,   f.variance.value,
                                            f.variance.error, f.fourth.value, f.fourth.error};
         }
-    }
+    };
+    if (run.executor != nullptr) run.executor->for_each(plan.groups.size(), predict_group);
+    else
+        for (std::size_t g = 0; g < plan.groups.size(); ++g) predict_group(g);
     return result;
 }
 

@@ -14,12 +14,9 @@ void expect_within(double value, double error, double better, double better_erro
 
 bool has_jumps(const Strategy& s) { return s.heuristic == "cutoff" || s.heuristic == "maximum"; }
 
-class StatedErrors : public testing::TestWithParam<unsigned> {};
-
-TEST_P(StatedErrors, BoundTheChangeThatATighterToleranceMakes)
+void expect_bounds_the_change_of_a_tighter_tolerance(const Scene& scene,
+                                                     const std::vector<Strategy>& all)
 {
-    const Scene scene = random_scene(GetParam());
-    const std::vector<Strategy> all = every_plain_strategy();
     const std::vector<Predicted> p = predict(scene, scene.probes[0], all);
     const std::vector<Predicted> q =
         predict(scene, scene.probes[0], all, {.smooth = 1e-9, .jumps = 1e-8});
@@ -38,7 +35,30 @@ TEST_P(StatedErrors, BoundTheChangeThatATighterToleranceMakes)
             << name;  // all are unbiased
     }
 }
+
+class StatedErrors : public testing::TestWithParam<unsigned> {};
+
+TEST_P(StatedErrors, BoundTheChangeThatATighterToleranceMakes)
+{
+    expect_bounds_the_change_of_a_tighter_tolerance(random_scene(GetParam()),
+                                                    every_plain_strategy());
+}
 INSTANTIATE_TEST_SUITE_P(Scenes, StatedErrors, testing::Range(0U, 12U));
+
+TEST(StatedErrorsOf, SixLightsThatInterlock)
+{
+    Scene scene = random_scene(6);
+    const Probe& probe = scene.probes[0];
+    scene.surfaces.clear(), scene.lights.clear();
+    for (int i = 0; i < 6; ++i) {
+        const Vec3<double> away(0.12 * std::cos(1.7 * i), 0.12 * std::sin(2.3 * i), 0.03 * i);
+        scene.lights.push_back(
+            make_light(probe.position + probe.normal + away, 0.3 + 0.02 * i, Vec3<double>(1 + i)));
+    }
+    expect_bounds_the_change_of_a_tighter_tolerance(
+        scene, strategies_of({"uniform/balance", "all/power/union", "power/cutoff",
+                              "uniform/maximum/union", "all/cutoff", "brdf"}));
+}
 
 }  // namespace
 }  // namespace mis

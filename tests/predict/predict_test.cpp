@@ -119,13 +119,34 @@ double clipped(double sine, double cos_beta)
     return sine * sine * exact_irradiance_over_sin2(sine, cos_beta);
 }
 
+TEST(Predict, TheOrderOfItsPassesChangesNoBit)
+{
+    const Scene scene = random_scene(3);
+    const std::vector<Strategy> all = every_plain_strategy();
+    std::size_t passes = 0;
+    const AnyExecutor backwards{1, [&](std::size_t n, const auto& body) {
+                                    passes = n;
+                                    while (n-- > 0) body(n);
+                                }};
+    const std::vector<Predicted> p = predict(scene, scene.probes[0], all),
+                                 q = predict(scene, scene.probes[0], all, {},
+                                             {.executor = &backwards});
+    EXPECT_GT(passes, 1);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(p[i].variance, q[i].variance) << name_of(all[i]);
+        EXPECT_EQ(p[i].fourth_error, q[i].fourth_error) << name_of(all[i]);
+    }
+}
+
 TEST(Predict, EndsOnceItIsToldTo)
 {
     Scene scene = empty_scene(lambert(0.5));
     scene.lights.push_back(light_at(direction(0.3, 2), 0.1, 1));
     std::atomic<bool> stop = false;
     const Strategy strategy = parse_strategy("all/light");
-    const auto ask = [&] { return predict(scene, scene.probes[0], {&strategy, 1}, {}, &stop); };
+    const auto ask = [&] {
+        return predict(scene, scene.probes[0], {&strategy, 1}, {}, {.stop = &stop});
+    };
     EXPECT_GT(ask()[0].mean, 0);
     stop = true;
     EXPECT_THROW(ask(), PredictError);

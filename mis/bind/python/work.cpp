@@ -246,8 +246,9 @@ std::vector<Predicted> predict(const ReadyScene& ready, const std::vector<std::s
                             ": found no probes; predict answers at probes alone\n"
                             "    Add \"probes\" to the scene.");
     std::vector<std::vector<Predicted>> of_probes(scene.probes.size());
-    executor_of(run).for_each(scene.probes.size(), [&](std::size_t p) {
-        of_probes[p] = mis::predict(scene, scene.probes[p], list);
+    const AnyExecutor executor = executor_of(run);
+    executor.for_each(scene.probes.size(), [&](std::size_t p) {
+        of_probes[p] = mis::predict(scene, scene.probes[p], list, {}, {.executor = &executor});
     });
     std::vector<Predicted> all;
     for (const auto& probe : of_probes) all.insert(all.end(), probe.begin(), probe.end());
