@@ -84,7 +84,8 @@ template <class T> struct Batch {
     alignas(64) Column<T> radius, gap2;      ///< of the light; d² − r²
     alignas(64) Column<T> distance;          ///< along wi to the light
     alignas(64) Column<T> light_number;      ///< its place in the columns as a T, for screening
-    alignas(64) Column<T> candidate;    ///< 1 where screening cannot rule out another light, else 0
+    /// Place + 1 of the one light that screening cannot rule out; 0: none is left, −1: several are.
+    alignas(64) Column<T> candidate;
     alignas(64) Column<T> probability;  ///< P(j | point)
     alignas(64) Column<T> light_pdf,
         bsdf_pdf;           ///< P · pdf of the light technique; pdf of the other, per steradian

@@ -73,9 +73,9 @@ template <class T> struct Kernels {
     std::size_t lanes;
     Stage<T> light_numbers, bsdf_numbers;              ///< independent
     Stage<T> sobol_light_numbers, sobol_bsdf_numbers;  ///< of scrambled sequences
-    Stage<T> screen_meeting;  ///< wi → candidate: could wi meet any light?
+    Stage<T> screen_meeting;  ///< wi → candidate: which light could wi meet?
     Stage<T>
-        screen_hiding;  ///< wi, light, distance → candidate: could another light stand before it?
+        screen_hiding;  ///< wi, light, distance → candidate: which other could stand before it?
     Stage<T> weigh_alone;              ///< contribution = f cos θ · L/pdf
     std::array<SumStages<T>, 2> sums;  ///< of grey, where the first channel is all; of colours
     std::vector<PolicyStages<T>> policies;

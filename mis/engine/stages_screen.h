@@ -65,31 +65,37 @@ MIS_INLINE void hold_against_lights(const TileJob<T>& job, const Batch<T>& batch
         });
 }
 
+/// Notes light k as candidate where `may_be`: its number + 1, or −1 beside another.
+template <class V, class Condition>
+MIS_INLINE void note_candidate(const Condition& may_be, std::size_t k, V& candidate)
+{
+    const V its(static_cast<Scalar<V>>(k + 1));
+    candidate = select(may_be, V(select(candidate == number<V>(0), its, number<V>(-1))), candidate);
+}
+
 template <class V, class T>
 MIS_INLINE auto may_meet(const ScreenedLights<T>& seen, std::size_t k, const Vec3<V>& wi)
 {
     return V(seen.x[k]) * wi.x + V(seen.y[k]) * wi.y + V(seen.z[k]) * wi.z >= V(seen.cos_max[k]);
 }
 
-/// wi → candidate: could wi meet any light?
+/// wi → candidate: which light could wi meet?
 template <class V, class T> void screen_meeting(const TileJob<T>& job, Batch<T>& batch)
 {
-    const V zero = number<V>(0), one = number<V>(1);
     hold_against_lights<V>(
         job, batch,
         [&](int row, const ScreenedLights<T>& seen, const Vec3<V>& wi)
             __attribute__((always_inline)) {
-                V candidate = zero;
+                V candidate = number<V>(0);
                 for (std::size_t k = 0; k < job.columns.count; ++k)
-                    candidate = select(may_meet(seen, k, wi), one, candidate);
+                    note_candidate(may_meet(seen, k, wi), k, candidate);
                 set_lanes(batch.candidate, row, candidate);
             });
 }
 
-/// wi, light, distance → candidate: could another light stand before it?
+/// wi, light, distance → candidate: which other light could stand before it?
 template <class V, class T> void screen_hiding(const TileJob<T>& job, Batch<T>& batch)
 {
-    const V zero = number<V>(0), one = number<V>(1);
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i)
         batch.light_number[i] = static_cast<T>(job.place_of(batch.light[i]));
     hold_against_lights<V>(
@@ -100,12 +106,11 @@ template <class V, class T> void screen_hiding(const TileJob<T>& job, Batch<T>& 
                 // Near the rim of a light, its distance is known to a thousandth of its radius.
                 const V limit = lanes_of<V>(batch.distance, row) * number<V>(1 + 1e-5) +
                                 lanes_of<V>(batch.radius, row) * number<V>(1e-3);
-                V candidate = zero;
-                for (std::size_t k = 0; k < job.columns.count; ++k) {
-                    const V near = select(V(seen.nearest[k]) <= limit, one, candidate);
-                    const V hides = select(may_meet(seen, k, wi), near, candidate);
-                    candidate = select(light == V(static_cast<T>(k)), candidate, hides);
-                }
+                V candidate = number<V>(0);
+                for (std::size_t k = 0; k < job.columns.count; ++k)
+                    note_candidate(may_meet(seen, k, wi) && V(seen.nearest[k]) <= limit &&
+                                       light != V(static_cast<T>(k)),
+                                   k, candidate);
                 set_lanes(batch.candidate, row, candidate);
             });
 }

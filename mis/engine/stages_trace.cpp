@@ -55,27 +55,38 @@ template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
 
 namespace {
 
+/// Rows, ascending.
+struct RowList {
+    std::array<std::int32_t, batch_capacity + 1> row;  // NOLINT: filled as far as it is read
+    std::size_t count = 0;
+
+    /// Without a branch.
+    void note(int which, bool is_in) { row[count] = which, count += is_in; }
+    int operator[](std::size_t i) const { return row[i]; }
+    std::span<const std::int32_t> all() const { return std::span(row).first(count); }
+};
+
 /// Moves the kept rows to the front, with all that the later stages of either half read.
 template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
 {
     batch.rows_are_samples = false;
-    int kept = 0;
-    for (int row = 0; row < batch.rows; ++row) {
-        if (!keep(row)) continue;
-        if (kept != row) {
-            const auto from = static_cast<std::size_t>(row), to = static_cast<std::size_t>(kept);
-            batch.slot[to] = batch.slot[from];
-            batch.point[to] = batch.point[from];
-            batch.light[to] = batch.light[from];
-            batch.distance[to] = batch.distance[from];
-            batch.x.put(kept, batch.x.at(row));
-            batch.n.put(kept, batch.n.at(row));
-            batch.wo.put(kept, batch.wo.at(row));
-            batch.wi.put(kept, batch.wi.at(row));
-        }
-        ++kept;
+    RowList kept;
+    for (int row = 0; row < batch.rows; ++row) kept.note(row, keep(row));
+    batch.rows = static_cast<int>(kept.count);
+    for (int to_row = 0; to_row < batch.rows; ++to_row) {
+        const auto to = static_cast<std::size_t>(to_row);
+        const int row = kept[to];
+        if (row == to_row) continue;
+        const auto from = static_cast<std::size_t>(row);
+        batch.slot[to] = batch.slot[from];
+        batch.point[to] = batch.point[from];
+        batch.light[to] = batch.light[from];
+        batch.distance[to] = batch.distance[from];
+        batch.x.put(to_row, batch.x.at(row));
+        batch.n.put(to_row, batch.n.at(row));
+        batch.wo.put(to_row, batch.wo.at(row));
+        batch.wi.put(to_row, batch.wi.at(row));
     }
-    batch.rows = kept;
 }
 
 /// The technique number of a row's sample: the first word of its BSDF block, or that dimension of
@@ -110,40 +121,74 @@ template <class T> void keep_bsdf_rows(const TileJob<T>& job, Batch<T>& batch)
     keep_rows(batch, [&](int row) { return !draws_light(job, batch, row); });
 }
 
+namespace {
+
+/// Of few lights, screening has ruled out most. Rows for which one light is left are asked of that:
+/// ask(row, lights); those with several are noted for the hierarchy.
+template <class T, class IsAsked, class Ask>
+void ask_screened(const TileJob<T>& job, const Batch<T>& batch, const IsAsked& is_asked,
+                  const Ask& ask, RowList& left)
+{
+    RowList candidates;
+    for (int row = 0; row < batch.rows; ++row)
+        candidates.note(row, batch.candidate[static_cast<std::size_t>(row)] != 0);
+    for (const int row : candidates.all()) {
+        if (!is_asked(row)) continue;
+        const T candidate = batch.candidate[static_cast<std::size_t>(row)];
+        if (candidate < 0) {
+            left.note(row, true);
+        } else {
+            const auto light =
+                static_cast<ListedLight>(job.light_at(static_cast<LightIndex>(candidate) - 1));
+            ask(row, std::span(&light, 1));
+        }
+    }
+}
+
+/// Of many, the lists of the tile are asked where there are any: list_of(row, lists).
+template <class T, class IsAsked, class ListOf, class DistanceOf, class Ask>
+void ask_listed(const TileJob<T>& job, const Batch<T>& batch, const IsAsked& is_asked,
+                const ListOf& list_of, const DistanceOf& distance_of, const Ask& ask, RowList& left)
+{
+    ListedRays<T> listed(job, batch);
+    for (int row = 0; row < batch.rows; ++row)
+        if (is_asked(row) &&
+            !listed.note(row, [&](const Blockers& lists) { return list_of(row, lists); }))
+            left.note(row, true);
+    listed.for_each_met(distance_of, ask);
+}
+
+}  // namespace
+
 template <class T> void meet_lights(const TileJob<T>& job, Batch<T>& batch)
 {
-    const bool is_screened = job.lights->size() <= most_screened_lights;
-    std::array<std::int32_t, batch_capacity> row_of;  // NOLINT: filled as far as it is read
-    std::size_t count = 0;
-    ListedRays<T> listed(job, batch);
-    for (int row = 0; row < batch.rows; ++row) {
-        const auto i = static_cast<std::size_t>(row);
-        batch.light[i] = no_light;
-        if (is_zero(batch.wi, row) || (is_screened && batch.candidate[i] == 0)) continue;
-        const auto list_along = [wi = vec_cast<float>(batch.wi.at(row))](const Blockers& lists) {
-            return lists.often_along(wi);
+    RowList left;  // to the hierarchy
+    const auto is_asked = [&](int row) { return !is_zero(batch.wi, row); };
+    const auto ray_of = [&](int row) {
+        return LightHierarchy::Ray{shading_point(job, batch, row).x, unit_direction(batch, row)};
+    };
+    const auto put = [&](int row, const LightHit& hit) {
+        batch.light[static_cast<std::size_t>(row)] = hit.light;
+        batch.distance[static_cast<std::size_t>(row)] = static_cast<T>(hit.distance);
+    };
+    const auto ask = [&](int row, std::span<const ListedLight> lights) {
+        const LightHierarchy::Ray ray = ray_of(row);
+        put(row, job.hierarchy->nearest(ray.x, ray.wi, lights));
+    };
+    std::fill_n(batch.light.begin(), batch.rows, no_light);
+    if (job.lights->size() <= most_screened_lights) {
+        ask_screened(job, batch, is_asked, ask, left);
+    } else {
+        const auto list_along = [&](int row, const Blockers& lists) {
+            return lists.often_along(vec_cast<float>(batch.wi.at(row)));
         };
-        if (is_screened || !listed.note(row, list_along)) row_of[count++] = row;
+        ask_listed(
+            job, batch, is_asked, list_along,
+            [](int) { return std::numeric_limits<T>::infinity(); }, ask, left);
     }
-    listed.for_each_met(
-        [](int) { return std::numeric_limits<T>::infinity(); },
-        [&](int row, std::span<const ListedLight> lights) {
-            const LightHit hit = job.hierarchy->nearest(shading_point(job, batch, row).x,
-                                                        unit_direction(batch, row), lights);
-            batch.light[static_cast<std::size_t>(row)] = hit.light;
-            batch.distance[static_cast<std::size_t>(row)] = static_cast<T>(hit.distance);
-        });
     job.hierarchy->nearest_each(
-        count,
-        [&](std::size_t i) {
-            return LightHierarchy::Ray{shading_point(job, batch, row_of[i]).x,
-                                       unit_direction(batch, row_of[i])};
-        },
-        [&](std::size_t i, const LightHit& hit) {
-            const auto row = static_cast<std::size_t>(row_of[i]);
-            batch.light[row] = hit.light;
-            batch.distance[row] = static_cast<T>(hit.distance);
-        });
+        left.count, [&](std::size_t i) { return ray_of(left[i]); },
+        [&](std::size_t i, const LightHit& hit) { put(left[i], hit); });
     keep_rows(batch, [&](int row) { return batch.light[static_cast<std::size_t>(row)] >= 0; });
 }
 
@@ -157,41 +202,41 @@ template <class T> void fetch_radiance(const TileJob<T>& job, Batch<T>& batch)
 
 template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
 {
-    const bool is_screened = job.lights->size() <= most_screened_lights;
-    std::array<std::int32_t, batch_capacity> row_of;  // NOLINT: filled as far as it is read
-    std::size_t count = 0;
-    ListedRays<T> listed(job, batch);
+    RowList left;  // to the hierarchy
+    const auto is_asked = [&](int row) {
+        return !is_zero(batch.contribution, row) &&
+               !job.knows(batch.light[static_cast<std::size_t>(row)], unhidden);
+    };
     const auto ray_of = [&](int row) {
         return LightHierarchy::Ray{shading_point(job, batch, row).x,
                                    exact_direction(job, batch, row)};
     };
-    for (int row = 0; row < batch.rows; ++row) {
-        if (is_zero(batch.contribution, row)) continue;
-        if (is_screened && batch.candidate[static_cast<std::size_t>(row)] == 0) continue;
-        const LightIndex j = batch.light[static_cast<std::size_t>(row)];
-        if (job.knows(j, unhidden)) continue;
-        if (!listed.note(row, [j](const Blockers& lists) { return lists.often_before(j); }))
-            row_of[count++] = row;
-    }
-    listed.for_each_met(
+    const auto hide = [&](int row, bool is_hidden) {
+        if (is_hidden) batch.contribution.put(row, Vec3<T>(T(0)));
+    };
+    const auto ask = [&](int row, std::span<const ListedLight> lights) {
+        const LightHierarchy::Ray ray = ray_of(row);
+        hide(row, job.hierarchy->hides(ray.x, ray.wi, own_hit(job, batch, row, ray.wi), lights));
+    };
+    if (job.lights->size() <= most_screened_lights) {
+        ask_screened(job, batch, is_asked, ask, left);
+    } else {
+        const auto list_before = [&](int row, const Blockers& lists) {
+            return lists.often_before(batch.light[static_cast<std::size_t>(row)]);
+        };
         // Near the rim of a light, its distance is known to a thousandth of its radius.
-        [&](int row) {
+        const auto distance_of = [&](int row) {
             const auto i = static_cast<std::size_t>(row);
             return batch.distance[i] + T(1e-3) * batch.radius[i];
-        },
-        [&](int row, std::span<const ListedLight> lights) {
-            const LightHierarchy::Ray ray = ray_of(row);
-            if (job.hierarchy->hides(ray.x, ray.wi, own_hit(job, batch, row, ray.wi), lights))
-                batch.contribution.put(row, Vec3<T>(T(0)));
-        });
+        };
+        ask_listed(job, batch, is_asked, list_before, distance_of, ask, left);
+    }
     job.hierarchy->hides_each(
-        count, [&](std::size_t i) { return ray_of(row_of[i]); },
+        left.count, [&](std::size_t i) { return ray_of(left[i]); },
         [&](std::size_t i, const LightHierarchy::Ray& ray) {
-            return own_hit(job, batch, row_of[i], ray.wi);
+            return own_hit(job, batch, left[i], ray.wi);
         },
-        [&](std::size_t i, bool is_hidden) {
-            if (is_hidden) batch.contribution.put(row_of[i], Vec3<T>(T(0)));
-        });
+        [&](std::size_t i, bool is_hidden) { hide(left[i], is_hidden); });
 }
 
 namespace {

@@ -120,8 +120,10 @@ template <class T> struct Workspace<T>::Run {
         }
         prepare_points();
         std::fill_n(batch.value.x.begin(), batch.samples, 0.0);
-        std::fill_n(batch.value.y.begin(), batch.samples, 0.0);
-        std::fill_n(batch.value.z.begin(), batch.samples, 0.0);
+        if (pipeline.colour) {  // else the first channel is all that is read
+            std::fill_n(batch.value.y.begin(), batch.samples, 0.0);
+            std::fill_n(batch.value.z.begin(), batch.samples, 0.0);
+        }
         const std::size_t lights = pipeline.draws_every_light ? job.lights->size() : 1;
         const std::uint32_t light_draws = static_cast<std::uint32_t>(pipeline.light_draws * lights);
         for (std::uint32_t draw = 0; draw < light_draws; ++draw)

@@ -10,7 +10,7 @@ namespace {
 /// Every row is left to the hierarchy.
 template <class T> void rule_out_none(const TileJob<T>&, Batch<T>& batch)
 {
-    batch.candidate.fill(1);
+    batch.candidate.fill(-1);
 }
 
 template <class T> Pipeline<T> without_screening(Pipeline<T> pipeline, const Kernels<T>& kernels)
