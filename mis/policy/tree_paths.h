@@ -5,6 +5,8 @@
 #include "mis/sampling/discrete.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <span>
 
 namespace mis {
@@ -14,12 +16,23 @@ namespace mis {
 MIS_INLINE bool sum_up(LightTree::Row<double>& weights)
 {
     constexpr std::size_t quarter = LightTree::width / 4;
-    std::array<double, quarter> most{};
-    for (std::size_t q = 0; q < LightTree::width; q += quarter)
-        for (std::size_t k = 0; k < quarter; ++k)
-            most[k] = weights[q + k] > most[k] ? weights[q + k] : most[k];
+    using Quarter = typename CompilerLanes<double, quarter>::Type;
+    std::array<Quarter, 4> of;  // NOLINT: filled at once
+    std::memcpy(of.data(), weights.data(), sizeof of);
+    const auto raise_to = [](Quarter & some, const Quarter& other) __attribute__((always_inline))
+    {
+        some = some > other ? some : other;
+    };
+    Quarter most = of[0];
+    for (const Quarter& some : of) raise_to(most, some);
     const double largest = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-    for (double& weight : weights) weight = with_a_share(weight, largest, LightTree::width);
+    const Quarter none = {}, least = none + least_weight(largest, LightTree::width);
+    for (Quarter& some : of) {
+        const auto counts = some > none;
+        raise_to(some, least);
+        some = counts ? some : none;
+    }
+    std::memcpy(weights.data(), of.data(), sizeof of);
     for (std::size_t k = 1; k < quarter; ++k)
         for (std::size_t q = 0; q < LightTree::width; q += quarter)
             weights[q + k] += weights[q + k - 1];

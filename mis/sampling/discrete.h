@@ -66,12 +66,15 @@ private:
     LargeVector<Cell> cells_;
 };
 
-/// A weight as it counts among so many, of which this is the largest: one that is not 0 has 2⁻⁵⁰ of
+/// A weight that is not 0 counts as this at least, among so many of which `largest` is one: 2⁻⁵⁰ of
 /// all or more. Less, and the rounding of their running sum would leave it none: never drawn, it
 /// would be missing from the mean (docs/theory.md §7).
-MIS_INLINE double with_a_share(double weight, double largest, std::size_t count)
+MIS_INLINE double least_weight(double largest, std::size_t count)
 {
-    const double least = largest * (0x1p-50 * static_cast<double>(count));
+    return largest * (0x1p-50 * static_cast<double>(count));
+}
+MIS_INLINE double with_a_share(double weight, double least)
+{
     const double lifted = weight > least ? weight : least;
     return weight > 0 ? lifted : 0;
 }
@@ -87,8 +90,9 @@ public:
     {
         double largest = 0, sum = 0;
         for (const T weight : weights) largest = std::max(largest, static_cast<double>(weight));
+        const double least = least_weight(largest, weights.size());
         for (std::size_t i = 0; i < weights.size(); ++i)
-            sums[i] = sum += with_a_share(static_cast<double>(weights[i]), largest, weights.size());
+            sums[i] = sum += with_a_share(static_cast<double>(weights[i]), least);
         return RunningSum(sums);
     }
 
