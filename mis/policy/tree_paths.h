@@ -11,28 +11,53 @@
 
 namespace mis {
 
+namespace detail {
+
+/// A row by quarters, which compilers keep in lanes: sums and maxima of them do not wait for one
+/// another, nor for memory.
+template <class N> struct Quarters {
+    static constexpr std::size_t size = LightTree::width / 4;
+    using Lanes = typename CompilerLanes<N, size>::Type;
+    std::array<Lanes, 4> of;  // NOLINT: filled at once
+
+    MIS_INLINE explicit Quarters(const LightTree::Row<N>& row)
+    {
+        std::memcpy(of.data(), row.data(), sizeof of);
+    }
+    MIS_INLINE static void raise_to(Lanes& some, const Lanes& other)
+    {
+        some = some > other ? some : other;
+    }
+    MIS_INLINE N largest() const
+    {
+        Lanes most = of[0];
+        for (const Lanes& some : of) raise_to(most, some);
+        return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+    }
+    MIS_INLINE N sum() const
+    {
+        const Lanes all = (of[0] + of[1]) + (of[2] + of[3]);
+        return (all[0] + all[1]) + (all[2] + all[3]);
+    }
+};
+
+}  // namespace detail
+
 /// Weights → their running sums. Is their total positive? Quarters by themselves first: their sums
 /// do not wait for one another.
 MIS_INLINE bool sum_up(LightTree::Row<double>& weights)
 {
-    constexpr std::size_t quarter = LightTree::width / 4;
-    using Quarter = typename CompilerLanes<double, quarter>::Type;
-    std::array<Quarter, 4> of;  // NOLINT: filled at once
-    std::memcpy(of.data(), weights.data(), sizeof of);
-    const auto raise_to = [](Quarter & some, const Quarter& other) __attribute__((always_inline))
-    {
-        some = some > other ? some : other;
-    };
-    Quarter most = of[0];
-    for (const Quarter& some : of) raise_to(most, some);
-    const double largest = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-    const Quarter none = {}, least = none + least_weight(largest, LightTree::width);
-    for (Quarter& some : of) {
+    using Quarters = detail::Quarters<double>;
+    constexpr std::size_t quarter = Quarters::size;
+    Quarters quarters(weights);
+    const Quarters::Lanes none = {},
+                          least = none + least_weight(quarters.largest(), LightTree::width);
+    for (Quarters::Lanes& some : quarters.of) {
         const auto counts = some > none;
-        raise_to(some, least);
+        Quarters::raise_to(some, least);
         some = counts ? some : none;
     }
-    std::memcpy(weights.data(), of.data(), sizeof of);
+    std::memcpy(weights.data(), quarters.of.data(), sizeof quarters.of);
     for (std::size_t k = 1; k < quarter; ++k)
         for (std::size_t q = 0; q < LightTree::width; q += quarter)
             weights[q + k] += weights[q + k - 1];
@@ -121,10 +146,8 @@ public:
     /// Another group; the weights and doubts of its parts are known.
     MIS_INLINE void add(OpenGroup<S>& group)
     {
-        double sum = 0;
-        for (const double weight : group.sums) sum += weight;
-        total_ += sum - replaced_;
-        most_doubt_[count_] = group.is_of_lights ? 0 : most_of(group.doubts);
+        total_ += detail::Quarters<double>(group.sums).sum() - replaced_;
+        most_doubt_[count_] = group.is_of_lights ? 0 : detail::Quarters<S>(group.doubts).largest();
         ++count_;
     }
 
@@ -140,7 +163,7 @@ public:
         LightTree::Row<S>& doubts = open[g].doubts;
         while (doubts[k] != most_doubt_[g]) ++k;
         doubts[k] = 0;
-        most_doubt_[g] = most_of(doubts);
+        most_doubt_[g] = detail::Quarters<S>(doubts).largest();
         replaced_ = open[g].sums[k];
         from_[count_] = {static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(k)};
         open[g].opened[k] = static_cast<std::uint8_t>(count_);
@@ -154,14 +177,6 @@ public:
     const From& from(std::size_t i) const { return from_[i]; }
 
 private:
-    MIS_INLINE static S most_of(LightTree::Row<S> doubts)
-    {
-        for (std::size_t half = LightTree::width / 2; half > 0; half /= 2)
-            for (std::size_t k = 0; k < half; ++k)
-                doubts[k] = doubts[k] > doubts[k + half] ? doubts[k] : doubts[k + half];
-        return doubts[0];
-    }
-
     std::size_t count_ = 0;
     double total_ = 0;                ///< of the weights of all parts that are not opened
     double replaced_ = 0;             ///< the weight of the part that is being opened
