@@ -17,12 +17,6 @@ std::string run_of(std::string_view policy, std::size_t lights)
 }
 std::string cloud_of(std::size_t lights) { return fmt::format("lights/cloud/{}", lights); }
 
-/// Where a table is made of all lights, fewer points: else a repetition takes seconds.
-std::size_t points_for(bool is_linear, std::size_t lights)
-{
-    return !is_linear || lights <= 10'000 ? 256 : lights <= 100'000 ? 64 : 32;
-}
-
 bool is_linear(const PolicyStages<float>& policy)
 {
     return policy.reads_all_lights && policy.table_bytes(1000) > 1000;
@@ -37,10 +31,9 @@ void add_light_counts()
         for (const PolicyStages<float>& policy : kernels<float>().policies) {
             if (policy.draws_every_light) continue;  // a sample is a draw for each light
             const std::string strategy = std::string(policy.name) + "/power";
-            const Part part{.points = points_for(is_linear(policy), lights)};
             auto* run = benchmark::RegisterBenchmark(
                 run_of(policy.name, lights).c_str(), [=](benchmark::State& state) {
-                    run_tiles(state, ready(), strategy, kernels<float>(), part);
+                    run_tiles(state, ready(), strategy, kernels<float>());
                     state.counters["prepare_ns_per_light"] =
                         static_cast<double>(state.counters["ns_prepare"]) * samples_per_point /
                         static_cast<double>(lights);

@@ -37,7 +37,9 @@ template <int channels, class T> void add_row_by_row(const TileJob<T>& job, Batc
             continue;
         }
         const int slot = batch.slot[static_cast<std::size_t>(row)];
-        batch.value.put(slot, batch.value.at(slot) + vec_cast<double>(contribution));
+        if constexpr (channels == 1)
+            batch.value.x[static_cast<std::size_t>(slot)] += static_cast<double>(contribution.x);
+        else batch.value.put(slot, batch.value.at(slot) + vec_cast<double>(contribution));
     }
 }
 

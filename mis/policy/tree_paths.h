@@ -17,6 +17,7 @@ namespace detail {
 /// another, nor for memory.
 template <class N> struct Quarters {
     static constexpr std::size_t size = LightTree::width / 4;
+    static_assert(size == 4);
     using Lanes = typename CompilerLanes<N, size>::Type;
     std::array<Lanes, 4> of;  // NOLINT: filled at once
 

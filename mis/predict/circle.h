@@ -63,7 +63,7 @@ struct Circle {
         return {2 * up, dot(axis, polar.e1), dot(axis, polar.e2), -2 * up, 1, ball};
     }
 
-    Chord chord(double phi) const { return chord(std::cos(phi), std::sin(phi)); }
+    /// Of the meridian at φ.
     Chord chord(double cos_phi, double sin_phi) const
     {
         const double b = bx * cos_phi + by * sin_phi;

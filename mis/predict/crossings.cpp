@@ -64,21 +64,22 @@ private:
 
 }  // namespace
 
-std::vector<double> crossings(const std::function<double(double)>& f, std::span<const double> xs,
-                              std::span<const double> levels)
+std::vector<std::vector<double>> crossings(const std::function<double(double)>& f,
+                                           std::span<const double> xs,
+                                           std::span<const double> levels)
 {
     std::vector<Point> points;
     for (const double x : xs) points.push_back({x, f(x)});
-    std::vector<double> all;
+    std::vector<std::vector<double>> all;
     for (const double level : levels) {
         LevelSearch search(f, level);
         for (std::size_t i = 1; i < points.size(); ++i) {
             search.between(points[i - 1], points[i]);
             if (i > 1) search.around(points[i - 2], points[i - 1], points[i]);
         }
-        all.insert(all.end(), search.found.begin(), search.found.end());
+        std::sort(search.found.begin(), search.found.end());
+        all.push_back(std::move(search.found));
     }
-    std::sort(all.begin(), all.end());
     return all;
 }
 

@@ -65,7 +65,7 @@ private:
             }
         }
         if (is_rough(room, 1) && depth < effort_.max_halvings &&
-            meridians_ < effort_.max_meridians) {
+            meridians_ < effort_.max_meridians * std::max<std::size_t>(1, levels_.size())) {
             around(begin, end, low, (low + high) / 2, depth + 1);
             around(begin, end, (low + high) / 2, high, depth + 1);
             return;
@@ -129,15 +129,14 @@ private:
     {
         std::vector<double> cuts = meridian_.hints;
         if (group_.jumps.empty()) return cuts;
-        const std::vector<double> jumps = jumps_along(stretch);
-        cuts.insert(cuts.end(), jumps.begin(), jumps.end());
+        append(cuts, jumps_along(stretch));
         std::sort(cuts.begin(), cuts.end());
         return cuts;
     }
 
-    /// Where the ratio of the densities crosses a jump of the weights, along a stretch of
+    /// Where the ratio of the densities crosses each jump of the weights, along a stretch of
     /// meridian_.
-    std::vector<double> jumps_along(const Stretch& stretch)
+    std::vector<std::vector<double>> jumps_along(const Stretch& stretch)
     {
         std::vector<double> looks = looking_points(stretch.begin, stretch.end, 24);
         for (const double hint : meridian_.hints)
@@ -165,7 +164,7 @@ private:
             patch_.meridian(phi, meridian_);
             std::vector<std::size_t> counts;
             for (const Stretch& stretch : meridian_.stretches)
-                counts.push_back(jumps_along(stretch).size());
+                for (const auto& of_level : jumps_along(stretch)) counts.push_back(of_level.size());
             return counts;
         };
         for (std::size_t i = 0, known = azimuths.size(); i + 1 < known; ++i) {
@@ -201,8 +200,7 @@ private:
                 const Stretch& stretch = meridian.stretches[k / 2];
                 return log_ratio(meridian, stretch, k % 2 == 0 ? stretch.begin : stretch.end);
             };
-            const std::vector<double> more = crossings(ratio_at_end, looks, levels_);
-            azimuths.insert(azimuths.end(), more.begin(), more.end());
+            append(azimuths, crossings(ratio_at_end, looks, levels_));
         }
     }
 

@@ -10,7 +10,7 @@ namespace mis {
 
 namespace {
 
-constexpr std::size_t own = 0, horizon = 1;
+constexpr std::size_t own = 0, horizon = 1, no_circle = static_cast<std::size_t>(-1);
 
 /// Close to a cap that is wider than the lobe, the lobe's peak is the better pole.
 bool lobe_is_better_pole(const Ball& ball, const Lobe& lobe)
@@ -189,20 +189,22 @@ std::vector<double> Patch::known_azimuths() const
 {
     std::vector<double> all;
     const auto add = [&](double phi) { all.push_back(std::remainder(phi, two_pi<double>)); };
-    const auto add_point = [&](const PlanePoint& point) {
+    // Of a point that lies on two circles by construction, these are not asked.
+    const auto add_point = [&](const PlanePoint& point, std::size_t on = no_circle,
+                               std::size_t and_on = no_circle) {
         if (!std::isfinite(point.phi)) return;
-        if (!is_clearly_elsewhere(point)) add(point.phi);
+        if (!is_clearly_elsewhere(point, {on, and_on})) add(point.phi);
     };
     const bool looks_from_lobe = pole_is_lobe_ || !lobe_.is_narrower_than(1);
     const double toward = polar_.azimuth(looks_from_lobe ? sky_->n : lobe_.direction);
     for (int quarter = 0; quarter < 4; ++quarter) add(toward + quarter * pi<double> / 2);
     for (std::size_t i = 0; i < circles_.size(); ++i) {
         for (const PlanePoint& point : tangent_points(circles_[i]))
-            if (i != own) add_point(point);
+            if (i != own) add_point(point, i);
             else if (std::isfinite(point.phi)) add(point.phi);
         for (std::size_t k = 0; k < i; ++k)
             for (const PlanePoint& point : common_points(circles_[i], circles_[k]))
-                add_point(point);
+                add_point(point, i, k);
     }
     const auto add_direction = [&](const Vec3<double>& w) {
         const double half_chord2 = length2(w - polar_.pole) / 4;
@@ -224,13 +226,15 @@ std::vector<double> Patch::known_azimuths() const
     return breaks;
 }
 
-/// Is a point outside this patch, and not just at its rim?
-bool Patch::is_clearly_elsewhere(const PlanePoint& point) const
+/// Is a point outside this patch, and not just at its rim? It lies on some circles, which may say
+/// anything of it: as a line through the pole, one is all of a meridian or nothing.
+bool Patch::is_clearly_elsewhere(const PlanePoint& point,
+                                 const std::array<std::size_t, 2>& on) const
 {
     const double cos_phi = std::cos(point.phi), sin_phi = std::sin(point.phi);
     constexpr double rounding = 1e-6;  // a point too many is harmless
     for (std::size_t i = 0; i < circles_.size(); ++i) {
-        if (i > horizon && !smaller_[i]) continue;
+        if ((i > horizon && !smaller_[i]) || i == on[0] || i == on[1]) continue;
         const Chord chord = circles_[i].chord(cos_phi, sin_phi);
         const bool patch_is_between = (i <= horizon) != chord.inverted;
         const double slack = patch_is_between ? rounding : -rounding;

@@ -58,7 +58,7 @@ private:
     int ball_of(int circle_or_wall) const;
     std::vector<double> all_azimuths() const;
     std::vector<double> known_azimuths() const;
-    bool is_clearly_elsewhere(const PlanePoint& point) const;
+    bool is_clearly_elsewhere(const PlanePoint& point, const std::array<std::size_t, 2>& on) const;
     double distance_to_cap(std::size_t circle, const Vec3<double>& offset) const;
     double distance_to_wall(int ball, const Vec3<double>& offset) const;
     void add_hints(double high, Meridian& out) const;

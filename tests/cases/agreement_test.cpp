@@ -123,8 +123,8 @@ template <class T> void expect_agreement(const Suite& suite, std::uint64_t type)
         EXPECT_EQ(verdict.invalid, 0U) << sets[k];
         if (k > 0 || !is_float) continue;
         const int strategies = static_cast<int>(suite.strategies.size());
-        EXPECT_TRUE(sample_share < 1 || verdict.normal_means >= strategies / 3);
-        EXPECT_TRUE(sample_share < 1 || verdict.variances >= strategies / 6) << verdict.variances;
+        EXPECT_TRUE(sample_share < 1 || 3 * verdict.normal_means >= strategies);
+        EXPECT_TRUE(sample_share < 1 || 6 * verdict.variances >= strategies) << verdict.variances;
         testing::Test::RecordProperty("strategies", strategies);
         testing::Test::RecordProperty("normal_means", verdict.normal_means);
         testing::Test::RecordProperty("variances", verdict.variances);

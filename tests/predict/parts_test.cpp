@@ -2,10 +2,13 @@
 #include "mis/predict/blockers.h"
 #include "mis/predict/crossings.h"
 #include "mis/predict/heuristics.h"
+#include "mis/predict/patch.h"
 #include "mis/predict/rule.h"
 #include "tests/predict/predict_cases.h"
 
 #include <gtest/gtest.h>
+
+#include <random>
 
 namespace mis {
 namespace {
@@ -50,7 +53,7 @@ TEST(Crossings, AreFoundAlsoInPairsBetweenTwoLooks)
         return 1 - 1000 * (x - 0.51) * (x - 0.51);
     };  // above 0 for 0.0316 on either side
     const std::vector<double> looks = looking_points(0, 1, 8), zero{0.0};
-    const std::vector<double> found = crossings(f, looks, zero);
+    const std::vector<double> found = crossings(f, looks, zero).front();
     ASSERT_EQ(found.size(), 2u);
     EXPECT_NEAR(found[0], 0.51 - std::sqrt(1e-3), 1e-10);
     EXPECT_NEAR(found[1], 0.51 + std::sqrt(1e-3), 1e-10);
@@ -60,9 +63,68 @@ TEST(Crossings, PassOverWhatIsNotFinite)
 {
     const auto f = [](double x) { return x < 0.5 ? std::nan("") : x - 0.75; };
     const std::vector<double> looks = looking_points(0, 1, 16), zero{0.0};
-    const std::vector<double> found = crossings(f, looks, zero);
+    const std::vector<double> found = crossings(f, looks, zero).front();
     ASSERT_EQ(found.size(), 1u);
     EXPECT_NEAR(found[0], 0.75, 1e-12);
+}
+
+TEST(Crossings, StandByLevels)
+{
+    const std::vector<double> looks = looking_points(0, 1, 8), levels{0.75, 0.25, 2};
+    const auto found = crossings([](double x) { return x; }, looks, levels);
+    ASSERT_EQ(found.size(), 3u);
+    ASSERT_EQ(found[0].size(), 1u);
+    EXPECT_NEAR(found[0][0], 0.75, 1e-12);
+    ASSERT_EQ(found[1].size(), 1u);
+    EXPECT_NEAR(found[1][0], 0.25, 1e-12);
+    EXPECT_TRUE(found[2].empty());
+}
+
+TEST(Changes, AreFoundSeveralBetweenTwoLooks)
+{
+    const auto steps = [](double x) { return int(10 * x); };
+    const std::vector<double> looks{0.05, 0.45, 0.47}, found = changes(steps, looks);
+    ASSERT_EQ(found.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(found[i], 0.1 * double(i + 1), 1e-12);
+    int asked = 0;
+    const auto noise = [&](double) { return ++asked; };
+    EXPECT_LE(changes(noise, looks).size(), 16u);
+}
+
+std::size_t stretches_at(const Patch& patch, double phi)
+{
+    Meridian meridian;
+    patch.meridian(phi, meridian);
+    return meridian.stretches.size();
+}
+
+TEST(Patches, MeetTheSameAllAlongAnIntervalOfAzimuths)
+{
+    std::mt19937 random(5);
+    const auto u = [&] { return 2 * std::generate_canonical<double, 53>(random) - 1; };
+    for (int s = 0; s < 200; ++s) {
+        Scene scene = empty_scene(lambert(0.5));
+        for (int j = 0; j < 3; ++j) {  // in the tangent plane, or about it
+            const double up = s % 2 == 0 ? 0 : 0.2 * u();
+            scene.lights.push_back(
+                make_light({3 * u(), 3 * u(), up}, 0.1 + 0.1 * j, Vec3<double>(1)));
+        }
+        const Sky sky = sky_of(scene, scene.probes[0]);
+        if (sky.is_dark) continue;
+        const Lobe lobe{.direction = direction(0.4, s), .width = 0.25};
+        for (int j = 0; j < 3; ++j) {
+            const auto light = static_cast<std::size_t>(j);
+            const Patch patch(sky, j, sky.neighbours[light], lobe);
+            for (std::size_t i = 0; i + 1 < patch.azimuths().size(); ++i) {
+                const double begin = patch.azimuths()[i], size = patch.azimuths()[i + 1] - begin;
+                if (size < 1e-6) continue;
+                const std::size_t expected = stretches_at(patch, begin + 0.5 * size);
+                for (const double share : {0.01, 0.3, 0.7, 0.99})
+                    ASSERT_EQ(stretches_at(patch, begin + share * size), expected)
+                        << s << " " << j << " " << begin << " + " << share << " of " << size;
+            }
+        }
+    }
 }
 
 /// A probe on a floor of a room, a light under the ceiling.
