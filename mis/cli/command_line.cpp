@@ -102,13 +102,13 @@ void add_output_options(CLI::App& command, OutputOptions& options)
         ->type_name("FILE");
 }
 
-void add_stop_options(CLI::App& command, StopOptions& options)
+void add_stop_options(CLI::App& command, StopOptions& options, const std::string& error)
 {
     command.add_option("--spp", options.spp, "samples per shading point")
         ->check(samples_fault)
         ->type_name("N");
     command.add_option("--time", options.seconds, "seconds of wall time")->type_name("S");
-    command.add_option("--error", options.error, "until the relative error is E")->type_name("E");
+    command.add_option("--error", options.error, error)->type_name("E");
 }
 
 /// --policy, --heuristic, --technique, --model, --strategy.
@@ -133,7 +133,7 @@ void add_compare(CLI::App& app, CompareOptions& options)
         ->required()
         ->type_name("SCENE");
     add_strategy_lists(c, options);
-    add_stop_options(c, options.stop);
+    add_stop_options(c, options.stop, "until every ranked variance is known to ± E (0.05: 5 %)");
     c.add_option("--at", options.at,
                  "samples per point that the efficiency is for; with --sampler sobol, those of one "
                  "scrambling, and the variance too is for them")
@@ -153,8 +153,9 @@ void add_compare(CLI::App& app, CompareOptions& options)
     add_run_options(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
-        return "Without a list: every policy x light, balance, power, and brdf; until settled, or "
-               "30 s per scene. Two reports: what changed, and how sure that is.\n\nExamples:\n"
+        return "Without a list: every classic policy x light, balance, power, and brdf; until "
+               "settled, or 30 s per scene. Two reports: what changed, and how sure that "
+               "is.\n\nExamples:\n"
                "  mis compare scenes/veach.json\n"
                "  mis compare scenes/street.json --policy power,radiant-solid-angle --heuristic "
                "light,power --json street-report.json\n"
@@ -211,7 +212,7 @@ void add_render(CLI::App& app, RenderOptions& options)
         ->type_name("NAME")
         ->capture_default_str();
     c.add_option("--out", options.out, "OpenEXR file")->required()->type_name("FILE.exr");
-    add_stop_options(c, options.stop);
+    add_stop_options(c, options.stop, "until the relative error of the picture is E");
     add_run_options(c, options.run);
     c.footer([] {
         return "Without --spp, --time or --error: 64 samples per shading point.\n\nExamples:\n"

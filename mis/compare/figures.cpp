@@ -38,6 +38,7 @@ LogEstimate log_median_ratio(const Figures& a, const Figures& b, Seconds seconds
 /// fewer than 30 of them carry the variance, as such a standard error means little.
 PointFigures point_figures(const Moments& moments, int samples_per_observation)
 {
+    if (moments.count == 0) return {nan, nan, unknown_interval()};
     const double variance = moments.variance();
     const bool known = moments.effective_count() >= 30;
     const double se = moments.m2 == 0 ? 0

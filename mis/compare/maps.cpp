@@ -63,7 +63,7 @@ private:
     void draw_reference()
     {
         maps_.reference = background();
-        const std::vector<double> weights = pooling_weights(study_.runs);
+        const std::vector<double>& weights = study_.reference_weights;
         for (std::size_t p = 0; p < lit(); ++p) {
             Vec3<double> mean(0);
             for (std::size_t s = 0; s < weights.size(); ++s)

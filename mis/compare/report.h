@@ -55,6 +55,8 @@ struct StrategyReport {
         0;  ///< share of the variance at points where rare samples carry it (pool.cpp)
     double resolving_factor =
         1;  ///< about how many times as many samples would resolve it; 1 where it is
+    double audited_growth =
+        1;  ///< its variance is so many times what its own samples show, at least (resolved.h)
     double effective_samples =
         0;  ///< how many samples carry the variance (measurements.h, Participation)
     std::uint64_t invalid_samples = 0;
@@ -84,7 +86,8 @@ struct SceneReport {
     int replicates = 0;
     double epsilon = 0;  ///< of the relative variance
     bool settled = false, partial = false;
-    double seconds = 0;  ///< wall
+    bool lacks_audit = false;  ///< for rare samples that were never drawn
+    double seconds = 0;        ///< wall
     std::vector<EffectPlan> effects;
     std::vector<StrategyReport> strategies;  ///< in the order asked for
     std::vector<PairReport> pairs;           ///< of ranked strategies

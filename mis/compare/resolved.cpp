@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mis {
 namespace {
@@ -32,22 +33,31 @@ struct Check {
     }
 };
 
-/// What the audit has against it; empty if nothing, or if there was none.
-std::string audit_fault(const StrategyMeasurements& s)
+/// What the audit has against its variance, or its relative variance; nothing where it has nothing,
+/// or where there was none.
+std::optional<Check> variance_fault(const StrategyMeasurements& s)
 {
     const Audit& a = s.audit;
-    const Check plain{
+    const Check check{
         "variance",     a.variance_from_others, a.variance_from_others_se,
         a.own_variance, a.own_variance_se,      rounding * s.pooled.mean * s.pooled.mean};
-    const Check relative{"relative variance",
-                         a.relative_variance_from_others,
-                         a.relative_variance_from_others_se,
-                         a.own_relative_variance,
-                         a.own_relative_variance_se,
-                         rounding};
-    if (a.available && plain.fails()) return plain.in_words();
-    if (a.relative_available && relative.fails()) return relative.in_words();
-    return "";
+    return a.available && check.fails() ? std::optional(check) : std::nullopt;
+}
+std::optional<Check> relative_fault(const StrategyMeasurements& s)
+{
+    const Audit& a = s.audit;
+    const Check check{"relative variance",
+                      a.relative_variance_from_others,
+                      a.relative_variance_from_others_se,
+                      a.own_relative_variance,
+                      a.own_relative_variance_se,
+                      rounding};
+    return a.relative_available && check.fails() ? std::optional(check) : std::nullopt;
+}
+std::optional<Check> audit_fault(const StrategyMeasurements& s)
+{
+    const std::optional<Check> fault = variance_fault(s);
+    return fault ? fault : relative_fault(s);
 }
 
 /// "4096 samples", or "256 scramblings".
@@ -83,7 +93,7 @@ double relative_error(const StrategyMeasurements& s, double ReplicateValues::*fi
 
 double resolving_factor(const StrategyMeasurements& s)
 {
-    double factor = audit_fault(s).empty() ? 1 : 2;
+    double factor = audit_fault(s) ? 2 : 1;
     if (s.replicates.size() < 2 || s.pooled.variance <= 0) return 4;
     for (const Participation* p : {&s.pooled.participation, &s.pooled.relative_participation})
         if (p->sum_d4 > 0) factor = std::max(factor, least_participation_to_rank / p->number());
@@ -91,10 +101,19 @@ double resolving_factor(const StrategyMeasurements& s)
     return std::isfinite(spread) ? std::max(factor, spread * spread) : std::max(factor, 4.0);
 }
 
-std::string why_not_resolved(const StrategyMeasurements& s)
+double audited_growth(const StrategyMeasurements& s)
+{
+    const std::optional<Check> fault = audit_fault(s);
+    return fault ? fault->at_least() / fault->own : 1;
+}
+
+namespace {
+
+std::string why_not(const StrategyMeasurements& s, bool is_relative_asked)
 {
     const PooledFigures& pooled = s.pooled;
-    if (std::string fault = audit_fault(s); !fault.empty()) return fault;
+    if (const auto fault = is_relative_asked ? audit_fault(s) : variance_fault(s))
+        return fault->in_words();
     if (s.all_samples_equal_reference) return "";
     if (s.replicates.size() < 2) return "its error takes at least two replicates";
     if (!std::isfinite(pooled.variance) || !std::isfinite(pooled.mean))
@@ -105,7 +124,7 @@ std::string why_not_resolved(const StrategyMeasurements& s)
                "yet";
     if (pooled.participation.number() < least_participation_to_rank)
         return carried_by_few(pooled.participation, s, "variance");
-    if (pooled.relative_participation.sum_d4 > 0 &&
+    if (is_relative_asked && pooled.relative_participation.sum_d4 > 0 &&
         pooled.relative_participation.number() < least_participation_to_rank)
         return carried_by_few(pooled.relative_participation, s, "relative variance");
     const double error = relative_error(s, &ReplicateValues::variance);
@@ -115,5 +134,11 @@ std::string why_not_resolved(const StrategyMeasurements& s)
                percent(largest_relative_error) + " is trusted)";
     return "";
 }
+
+}  // namespace
+
+std::string why_not_resolved(const StrategyMeasurements& s) { return why_not(s, true); }
+
+std::string why_variance_not_resolved(const StrategyMeasurements& s) { return why_not(s, false); }
 
 }  // namespace mis

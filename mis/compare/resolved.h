@@ -28,11 +28,18 @@ inline constexpr double audit_errors = 3;
 /// … is above this many times its own measured variance, plus as many of its standard errors.
 inline constexpr double audit_factor = 1.2;
 
-/// Why this strategy's variance is not resolved, in words; empty if it is. Tests, in this order: at
-/// least two replicates; no variance that is zero without a proof; what the other strategies'
-/// samples say (audit); participation in the variance and in the relative variance; spread of the
+/// Why this strategy's variance is not resolved, in words; empty if it is. Tests, in this order:
+/// what the other strategies' samples say (audit); at least two replicates; no variance that is
+/// zero without a proof; participation in the variance and in the relative variance; spread of the
 /// replicates. Precondition: the strategy was run.
 std::string why_not_resolved(const StrategyMeasurements& strategy);
+
+/// The same of the variance alone, which takes no reference.
+std::string why_variance_not_resolved(const StrategyMeasurements& strategy);
+
+/// How many times its own (relative) variance the other strategies' samples find at least: 1 where
+/// the audit has nothing against it, infinity where its own is 0.
+double audited_growth(const StrategyMeasurements& strategy);
 
 /// About how many times as many samples it takes for a strategy that is not resolved to be: by its
 /// participations and the spread of its replicates; at least 2 where the audit or a variance of

@@ -106,6 +106,9 @@ private:
     {
         const std::vector<int> order = in_order();
         if (order.empty()) return say("No strategy could be ranked on this scene" + remedy());
+        if (is_black(order))
+            return say(
+                "No light reaches any point that was measured: all is black, by any strategy");
         const int best = order[0];
         std::vector<std::string> gains;
         for (const int i : alternatives(order))
@@ -120,8 +123,18 @@ private:
                        (threads_ == 1 ? " thread" : " threads") + (gains.empty() ? "" : ")");
         say(verdict);
         say_how_sure(best);
+        if (scene_.lacks_audit)
+            say("Sequences are not audited: a strategy that never drew what is rare would look "
+                "better "
+                "than it is, and one that did biased; --sampler independent tells");
         say_most_efficient(best);
         say_least_variance(best);
+    }
+
+    /// Is every mean provably 0?
+    bool is_black(const std::vector<int>& order) const
+    {
+        return std::ranges::all_of(order, [&](int i) { return of(i).exact && of(i).mean == 0; });
     }
 
     /// What would rank the first of those that rare samples keep from it.
@@ -141,9 +154,11 @@ private:
         std::vector<std::string> names;
         for (int i = 0; i < count(); ++i) {
             const StrategyReport &s = of(i), &b = of(best);
-            const bool is_ahead = is_timed(best)
-                                      ? s.seconds_to_1_percent.value < b.seconds_to_1_percent.value
-                                      : s.variance.value < b.variance.value;
+            const auto less = [&](const Interval StrategyReport::*figure) {
+                return (s.*figure).value * s.audited_growth < (b.*figure).value;
+            };
+            const bool is_ahead = less(is_timed(best) ? &StrategyReport::seconds_to_1_percent
+                                                      : &StrategyReport::variance);
             if (s.status == Status::not_resolved && is_ahead) names.push_back(name(i));
         }
         return names;
@@ -160,8 +175,9 @@ private:
         const char* what = is_timed(best) ? "time to 1 % error" : "variance";
         if (scene_.pairs.empty()) return say("It is the only one that could be ranked");
         if (tied.empty() && undecided.empty())
-            return say((perhaps.empty() ? "It is sure to lead in "
-                                        : "Of those that are resolved it is sure to lead in ") +
+            return say((scene_.lacks_audit ? "By these samples it leads in "
+                        : perhaps.empty()  ? "It is sure to lead in "
+                                           : "Of those that are resolved it is sure to lead in ") +
                        std::string(what) + " (95 %, all pairs together)");
         if (!tied.empty())
             say(listed(tied) + (tied.size() == 1 ? " is" : " are") + " as good: tied with it in " +

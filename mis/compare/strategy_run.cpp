@@ -133,8 +133,8 @@ StrategyMeasurements StrategyRun::measurements(const RelativeScale& scale) const
     std::vector<Moments> moments;
     moments.reserve(results_.size());
     for (const PointResult& result : results_) moments.push_back(result.luminance);
-    for (const std::int64_t p : points_->probe_point)
-        m.probes.push_back(p >= 0 ? moments[static_cast<std::size_t>(p)] : Moments{});
+    for (const std::int64_t p : points_->probe_point)  // what is dark is 0 in every sample
+        m.probes.push_back(p >= 0 ? moments[static_cast<std::size_t>(p)] : Moments{.count = 2});
     const auto figures = std::span<const Moments>(moments).first(points_->figure_lit);
 
     m.pooled =
@@ -214,12 +214,13 @@ void StrategyRun::add_costs(StrategyMeasurements& m) const
     m.rays = static_cast<std::uint64_t>(std::llround(rays));
 }
 
-std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs)
+std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs,
+                                    const std::vector<bool>& trusted)
 {
     std::vector<double> weights(runs.size());
     double sum = 0;
     for (std::size_t s = 0; s < runs.size(); ++s) {
-        if (!runs[s] || runs[s]->samples() == 0) continue;
+        if (!trusted[s] || !runs[s] || runs[s]->samples() == 0) continue;
         double variance = 0, mean = 0;
         for (const PointResult& result : runs[s]->results()) {
             if (result.luminance.count > 1) variance += result.luminance.variance();
@@ -234,9 +235,9 @@ std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>
     return weights;
 }
 
-PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs, std::size_t points)
+PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
+                         const std::vector<double>& weights, std::size_t points)
 {
-    const std::vector<double> weights = pooling_weights(runs);
     PooledMeans means{std::vector<double>(points), std::vector<double>(points)};
     for (std::size_t s = 0; s < runs.size(); ++s) {
         if (!(weights[s] > 0)) continue;

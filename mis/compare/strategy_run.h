@@ -93,14 +93,17 @@ private:
 };
 
 /// What each strategy's means weigh in the reference: its samples over its variance; they sum to 1.
-/// 0 for those that were not run (null).
-std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs);
+/// 0 for those that were not run (null) or are not trusted. One that never drew what is rare has
+/// hardly a variance, and would outvote all others.
+std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs,
+                                    const std::vector<bool>& trusted);
 
-/// μ of every point: the means of the strategies by pooling_weights(). All 0 where none was run.
+/// μ of every point: the means of the strategies by such weights.
 struct PooledMeans {
     std::vector<double> values;
     std::vector<double> errors;  ///< standard errors of the values, were all strategies one
 };
-PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs, std::size_t points);
+PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
+                         const std::vector<double>& weights, std::size_t points);
 
 }  // namespace mis

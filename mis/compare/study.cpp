@@ -2,6 +2,7 @@
 
 #include "mis/compare/affordable.h"
 #include "mis/compare/pool.h"
+#include "mis/compare/resolved.h"
 #include "mis/compare/savings.h"
 #include "mis/compare/schedule.h"
 #include "mis/compare/study_audit.h"
@@ -17,6 +18,10 @@
 namespace mis {
 
 namespace {
+
+/// Of the time given, for the first samples of all strategies.
+constexpr double first_share = 0.6;
+
 
 std::size_t triangles_of(const Scene& scene)
 {
@@ -88,7 +93,7 @@ private:
         const double cpu = options_.spp ? 1e300 : budget() * executor_.threads;
         if (!options_.spp) {
             costs_ = estimate_costs(ground(), strategies_,
-                                    first_samples * samples_per_observation(), 0.6 * cpu);
+                                    first_samples * samples_per_observation(), first_share * cpu);
             plan_.parts = parts_for(sum_of_costs(), cpu);
         }
         std::vector<Strategy> quick;
@@ -313,14 +318,7 @@ private:
     /// share: of the probabilities of error that this look spends.
     void rank_now(double share)
     {
-        PooledMeans means = pooled_means(study_.runs, study_.points->shading.points.size());
-        RelativeScale scale = relative_scale(std::move(means.values), *study_.points,
-                                             scene_.scene().camera.has_value());
-        scale.mean_errors = std::move(means.errors);
-        study_.report.epsilon = scale.epsilon;
-        SceneMeasurements scene{points(), {}};
-        for (std::size_t s = 0; s < strategies_.size(); ++s)
-            scene.strategies.push_back(measured(s, scale));
+        const SceneMeasurements scene = all_measured();
         const std::vector<PairReport> earlier =
             stops_when_settled() ? std::move(study_.report.pairs) : std::vector<PairReport>();
         Ranking ranking = rank(
@@ -331,6 +329,42 @@ private:
         study_.report.settled = ranking.settled;
         study_.report.replicates = ranking.replicates;
         study_.report.seconds = seconds_since(start_);
+        study_.report.lacks_audit = !audit_ && !is_dark();
+    }
+
+    /// All by one reference. First the means of all strategies make it, then those of strategies
+    /// whose variance is resolved, and of these those whose relative variance is, too.
+    SceneMeasurements all_measured()
+    {
+        std::vector<bool> trusted(strategies_.size());
+        for (std::size_t s = 0; s < strategies_.size(); ++s) trusted[s] = study_.runs[s] != nullptr;
+        SceneMeasurements scene = measured_by(trusted);
+        for (const auto why_not : {why_variance_not_resolved, why_not_resolved}) {
+            std::vector<bool> fewer = trusted;
+            for (std::size_t s = 0; s < strategies_.size(); ++s)
+                fewer[s] = trusted[s] && why_not(scene.strategies[s]).empty();
+            if (fewer == trusted) continue;
+            if (std::find(fewer.begin(), fewer.end(), true) == fewer.end()) break;
+            trusted = fewer;
+            scene = measured_by(trusted);
+        }
+        return scene;
+    }
+
+    /// Against the means of those that are trusted.
+    SceneMeasurements measured_by(const std::vector<bool>& trusted)
+    {
+        study_.reference_weights = pooling_weights(study_.runs, trusted);
+        PooledMeans means = pooled_means(study_.runs, study_.reference_weights,
+                                         study_.points->shading.points.size());
+        RelativeScale scale = relative_scale(std::move(means.values), *study_.points,
+                                             scene_.scene().camera.has_value());
+        scale.mean_errors = std::move(means.errors);
+        study_.report.epsilon = scale.epsilon;
+        SceneMeasurements scene{points(), {}};
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            scene.strategies.push_back(measured(s, scale));
+        return scene;
     }
 
     StrategyMeasurements measured(std::size_t s, const RelativeScale& scale) const
@@ -339,8 +373,8 @@ private:
             StrategyMeasurements m;
             m.strategy = strategies_[s];
             m.was_run = false;
-            m.not_run_reason =
-                costs_[s].is_affordable ? "stopped before its turn" : "past the budget";
+            m.not_run_reason = costs_[s].is_affordable ? "stopped before its turn"
+                                                       : "past the budget" + first_look_in_words();
             m.estimated_seconds = costs_[s].seconds;
             return m;
         }
@@ -348,6 +382,13 @@ private:
         m.all_samples_equal_reference = is_dark();
         if (audit_) audit_->add_to(m, study_.runs[s]->results());
         return m;
+    }
+
+    std::string first_look_in_words() const
+    {
+        return ": the first " + count(first_samples * samples_per_observation()) +
+               " samples of it and of those that cost less would take more than " +
+               percent(first_share) + " of the time given";
     }
 
     /// No light, or no point that can be lit: every sample is 0, as the mean is.

@@ -31,6 +31,7 @@ struct Study {
     SceneReport report;
     std::unique_ptr<StudyPoints> points;
     std::vector<std::unique_ptr<StrategyRun>> runs;  ///< [strategy]; null where it was not run
+    std::vector<double> reference_weights;           ///< [strategy]: of its means in the reference
 };
 
 /// Samples the strategies in small alternating rounds and ranks them, until it is time to stop.

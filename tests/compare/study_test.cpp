@@ -115,6 +115,25 @@ TEST(Study, WaitsForStrategiesThatCanStillBeResolved)
 }
 
 /// No light is above the floor: every sample is 0, and that is proved.
+/// A strategy that never drew what matters shows no variance at all: it must not make the
+/// reference.
+TEST(Study, IsNotLedAstrayByAStrategyThatIsNotResolved)
+{
+    Scene scene = small_picture();
+    scene.lights.push_back(make_light_of_power({0, 4e5, 1e5}, 1e3, Vec3<double>(1e11)));
+    scene.lights[0] = make_light_of_power({0, 1.5, 0}, 0.1, Vec3<double>(100));
+    const StudyOptions options{.seed = 4, .spp = 256};
+    const Study alone = study_of(scene, named({"uniform/light", "brdf"}), options),
+                beside = study_of(scene, named({"uniform/light", "brdf", "power/light"}), options);
+    ASSERT_EQ(alone.report.strategies[0].status, Status::ranked);
+    ASSERT_EQ(beside.report.strategies[0].status, Status::ranked);
+    EXPECT_EQ(beside.report.strategies[2].status, Status::not_resolved)
+        << beside.report.strategies[2].reason;
+    const double expected = alone.report.strategies[0].relative_variance.value;
+    EXPECT_NEAR(beside.report.strategies[0].relative_variance.value, expected, 0.01 * expected);
+    EXPECT_NEAR(beside.report.epsilon, alone.report.epsilon, 0.01 * alone.report.epsilon);
+}
+
 TEST(Study, IsExactWhereNoPointFacesALight)
 {
     Scene scene = probe_under(three_lights_apart(), grey_floor());
@@ -164,6 +183,21 @@ TEST(Study, ListsProbesApartFromThePicture)
     ASSERT_EQ(study.report.strategies[0].probes.size(), 1U);
     EXPECT_EQ(study.points->figure_points + study.points->shading.background.size(), 40U * 24U);
     EXPECT_GT(study.report.strategies[0].probes[0].mean, 0);
+}
+
+TEST(Study, OfADarkProbeIsExactlyZero)
+{
+    Scene scene = small_picture();
+    Probe inside = scene.probes[0];
+    inside.position = scene.lights[0].center;
+    scene.probes.push_back(inside);
+    const Study study = study_of(scene, named({"uniform/light"}), {.seed = 1, .spp = 64});
+    const std::vector<PointFigures>& probes = study.report.strategies[0].probes;
+    ASSERT_EQ(probes.size(), 2U);
+    EXPECT_GT(probes[0].mean, 0);
+    EXPECT_EQ(probes[1].mean, 0);
+    EXPECT_EQ(probes[1].mean_se, 0);
+    EXPECT_EQ(probes[1].variance.high, 0);
 }
 
 TEST(Study, LeavesOutWhatIsPastTheBudget)
