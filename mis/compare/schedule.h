@@ -9,11 +9,14 @@
 
 namespace mis {
 
+/// Of every study, but where there are not two samples for each.
+inline constexpr int most_replicates = 16;
+
 /// The samples (or scramblings: observations) that every point gets in one round, per replicate,
 /// are as many as it takes to have some tens of rounds in all: strategies alternate in small
 /// rounds, so that a drifting machine touches all alike.
 struct SamplePlan {
-    int replicates = 16;
+    int replicates = most_replicates;
     int parts = 1;  ///< rounds that the replicates take turns in: more and shorter rounds, which
                     ///< tell the times better
     std::vector<int>
@@ -25,7 +28,7 @@ struct SamplePlan {
 inline SamplePlan plan_for(std::uint64_t spp)
 {
     SamplePlan plan;
-    plan.replicates = static_cast<int>(std::clamp<std::uint64_t>(spp / 2, 1, 16));
+    plan.replicates = static_cast<int>(std::clamp<std::uint64_t>(spp / 2, 1, most_replicates));
     std::uint64_t left = spp / static_cast<std::uint64_t>(plan.replicates);
     plan.remainder = static_cast<int>(spp % static_cast<std::uint64_t>(plan.replicates));
     const std::uint64_t usual = std::clamp<std::uint64_t>(left / 12, 2, 64);

@@ -1,5 +1,6 @@
 #include "mis/compare/sentences.h"
 
+#include "mis/compare/schedule.h"
 #include "mis/compare/words.h"
 #include "mis/math/limits.h"
 
@@ -27,6 +28,10 @@ public:
         say_ties();
         say_undecided();
         say_excluded();
+        if (scene_.replicates > 0 && scene_.replicates < most_replicates)
+            say("Intervals are rough: there was room for " + std::to_string(scene_.replicates) +
+                " replicates of two samples each, not " + std::to_string(most_replicates) +
+                " (--spp)");
         return std::move(said_);
     }
 
