@@ -92,6 +92,10 @@ template <class T> struct Workspace<T>::Run {
     {
         const std::size_t slot = batch.points++;
         batch.tile_point[slot] = static_cast<std::uint32_t>(p);
+        constexpr std::size_t ahead = 16;  // of 16 samples each, the next batch's
+        if (p + ahead >= job.points.size()) return;
+        __builtin_prefetch(&job.points[p + ahead]);
+        __builtin_prefetch(&results[p + ahead], 1);
     }
 
     /// Tables for the points that have none.
