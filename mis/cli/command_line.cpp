@@ -194,7 +194,8 @@ void add_cost(CLI::App& app, CostCommandOptions& options)
     add_run_options(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
-        return "Without a list: every policy with the power heuristic, and brdf; the soonest to 1 "
+        return "Without a list: every classic policy with the power heuristic, and brdf; the "
+               "soonest to 1 "
                "% of them also in\ndouble, and with four light draws per BSDF draw.\n\nExamples:\n"
                "  mis cost scenes/veach.json\n"
                "  mis cost scenes/street.json --strategy power/power,power/power@4+1 --time 60\n"
