@@ -49,7 +49,7 @@ struct WinnerMap {
 struct Maps {
     int width = 0, height = 0;
     std::vector<PixelKind> kind;
-    std::vector<Vec3<float>> reference;   ///< RGB radiance: all strategies' samples pooled
+    std::vector<Vec3<float>> reference;   ///< RGB radiance: the samples that make the reference
     std::vector<StrategyMap> strategies;  ///< that were run
     std::vector<std::string> policies;    ///< what WinnerMap::policy counts
     WinnerMap by_variance, by_efficiency;

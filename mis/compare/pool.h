@@ -13,10 +13,10 @@ inline constexpr double few_samples = 10;
 
 /// One strategy's figures over an image, from the moments of each of its shading points.
 /// scale: μ² + ε² of each point, which `relative_variance` divides by; the same numbers for every
-/// strategy (so μ is a reference pooled from all of them, not the strategy's own noisy mean). Where
-/// it is 0 and the variance is not, `relative_variance` is infinite: it has no value there.
-/// Preconditions: as many scales as points; points with fewer than two samples are left out of the
-/// variances.
+/// strategy (so μ is a reference pooled from those that are resolved, not the strategy's own noisy
+/// mean). Where it is 0 and the variance is not, `relative_variance` is infinite: it has no value
+/// there. Preconditions: as many scales as points; points with fewer than two samples are left out
+/// of the variances.
 PooledFigures pool_points(std::span<const Moments> points, std::span<const double> scale);
 
 /// What relative variances divide by: μ² + ε² of every point, and ε, which is 1 % of the mean over

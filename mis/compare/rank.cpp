@@ -32,7 +32,7 @@ void set_states(std::vector<StrategyReport>& reports, const SceneMeasurements& s
         } else if (!unresolved.empty()) {
             exclude(reports[i], Status::not_resolved, unresolved);
             reports[i].resolving_factor = resolving_factor(s);
-            reports[i].audited_growth = audited_growth(s);
+            reports[i].least_growth = audited_growth(s);
             reports[i].exact = false;
         } else {
             reports[i].status = Status::ranked;

@@ -28,6 +28,11 @@ struct PointFigures {
     Interval variance;             ///< of one sample, luminance²
 };
 
+/// How many times what a strategy's own samples show its variances are, at least (resolved.h).
+struct AuditedGrowth {
+    double variance = 1, relative_variance = 1;
+};
+
 /// All that was found about one strategy on one scene.
 struct StrategyReport {
     Strategy strategy;
@@ -55,8 +60,7 @@ struct StrategyReport {
         0;  ///< share of the variance at points where rare samples carry it (pool.cpp)
     double resolving_factor =
         1;  ///< about how many times as many samples would resolve it; 1 where it is
-    double audited_growth =
-        1;  ///< its variance is so many times what its own samples show, at least (resolved.h)
+    AuditedGrowth least_growth;
     double effective_samples =
         0;  ///< how many samples carry the variance (measurements.h, Participation)
     std::uint64_t invalid_samples = 0;

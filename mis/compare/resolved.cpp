@@ -101,10 +101,20 @@ double resolving_factor(const StrategyMeasurements& s)
     return std::isfinite(spread) ? std::max(factor, spread * spread) : std::max(factor, 4.0);
 }
 
-double audited_growth(const StrategyMeasurements& s)
+AuditedGrowth audited_growth(const StrategyMeasurements& s)
 {
-    const std::optional<Check> fault = audit_fault(s);
-    return fault ? fault->at_least() / fault->own : 1;
+    const auto growth = [](const std::optional<Check>& fault) {
+        return fault && fault->own > 0 ? fault->at_least() / fault->own : 1;
+    };
+    return {growth(variance_fault(s)), growth(relative_fault(s))};
+}
+
+std::string why_blind(const StrategyMeasurements& s)
+{
+    if (const auto fault = audit_fault(s)) return fault->in_words();
+    if (s.pooled.variance > 0 || s.all_samples_equal_reference) return "";
+    return "all of its " + observations_in_words(s) +
+           " say the same, which proves nothing: rare samples may not have been drawn yet";
 }
 
 namespace {
@@ -112,16 +122,12 @@ namespace {
 std::string why_not(const StrategyMeasurements& s, bool is_relative_asked)
 {
     const PooledFigures& pooled = s.pooled;
-    if (const auto fault = is_relative_asked ? audit_fault(s) : variance_fault(s))
-        return fault->in_words();
+    if (const auto fault = audit_fault(s)) return fault->in_words();
     if (s.all_samples_equal_reference) return "";
     if (s.replicates.size() < 2) return "its error takes at least two replicates";
     if (!std::isfinite(pooled.variance) || !std::isfinite(pooled.mean))
         return "its variance is not a finite number";
-    if (pooled.variance <= 0)
-        return "all of its " + observations_in_words(s) +
-               " say the same, which proves nothing: rare samples may not have been drawn "
-               "yet";
+    if (pooled.variance <= 0) return why_blind(s);
     if (pooled.participation.number() < least_participation_to_rank)
         return carried_by_few(pooled.participation, s, "variance");
     if (is_relative_asked && pooled.relative_participation.sum_d4 > 0 &&

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/compare/measurements.h"
+#include "mis/compare/report.h"
 
 #include <string>
 
@@ -34,12 +35,16 @@ inline constexpr double audit_factor = 1.2;
 /// replicates. Precondition: the strategy was run.
 std::string why_not_resolved(const StrategyMeasurements& strategy);
 
-/// The same of the variance alone, which takes no reference.
+/// The same by all tests that take no reference: not the participation in the relative variance.
 std::string why_variance_not_resolved(const StrategyMeasurements& strategy);
 
-/// How many times its own (relative) variance the other strategies' samples find at least: 1 where
-/// the audit has nothing against it, infinity where its own is 0.
-double audited_growth(const StrategyMeasurements& strategy);
+/// Why its samples missed what matters, as far as is known: the audit, or no variance without a
+/// proof. Empty if nothing says so.
+std::string why_blind(const StrategyMeasurements& strategy);
+
+/// How many times its own variance, and relative variance, the other strategies' samples find at
+/// least: 1 where the audit has nothing against it, or its own is 0.
+AuditedGrowth audited_growth(const StrategyMeasurements& strategy);
 
 /// About how many times as many samples it takes for a strategy that is not resolved to be: by its
 /// participations and the spread of its replicates; at least 2 where the audit or a variance of

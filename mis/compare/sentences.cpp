@@ -28,10 +28,10 @@ public:
         say_ties();
         say_undecided();
         say_excluded();
-        if (scene_.replicates > 0 && scene_.replicates < most_replicates)
+        if (!scene_.partial && scene_.replicates > 1 && scene_.replicates < most_replicates &&
+            has_intervals())
             say("Intervals are rough: there was room for " + std::to_string(scene_.replicates) +
-                " replicates of two samples each, not " + std::to_string(most_replicates) +
-                " (--spp)");
+                " replicates, not " + std::to_string(most_replicates) + " (--spp)");
         return std::move(said_);
     }
 
@@ -136,6 +136,13 @@ private:
         say_least_variance(best);
     }
 
+    bool has_intervals() const
+    {
+        return std::ranges::any_of(scene_.strategies, [](const StrategyReport& s) {
+            return s.status == Status::ranked && !s.exact;
+        });
+    }
+
     /// Is every mean provably 0?
     bool is_black(const std::vector<int>& order) const
     {
@@ -159,11 +166,10 @@ private:
         std::vector<std::string> names;
         for (int i = 0; i < count(); ++i) {
             const StrategyReport &s = of(i), &b = of(best);
-            const auto less = [&](const Interval StrategyReport::*figure) {
-                return (s.*figure).value * s.audited_growth < (b.*figure).value;
-            };
-            const bool is_ahead = less(is_timed(best) ? &StrategyReport::seconds_to_1_percent
-                                                      : &StrategyReport::variance);
+            const bool is_ahead =
+                is_timed(best) ? s.seconds_to_1_percent.value * s.least_growth.relative_variance <
+                                     b.seconds_to_1_percent.value
+                               : s.variance.value * s.least_growth.variance < b.variance.value;
             if (s.status == Status::not_resolved && is_ahead) names.push_back(name(i));
         }
         return names;

@@ -22,7 +22,6 @@ namespace {
 /// Of the time given, for the first samples of all strategies.
 constexpr double first_share = 0.6;
 
-
 std::size_t triangles_of(const Scene& scene)
 {
     std::size_t triangles = 0;
@@ -318,12 +317,19 @@ private:
     /// share: of the probabilities of error that this look spends.
     void rank_now(double share)
     {
-        const SceneMeasurements scene = all_measured();
         const std::vector<PairReport> earlier =
             stops_when_settled() ? std::move(study_.report.pairs) : std::vector<PairReport>();
-        Ranking ranking = rank(
-            scene,
-            {.threads = executor_.threads, .at = options_.at, .share = share, .earlier = earlier});
+        const auto ranked = [&](const SceneMeasurements& scene) {
+            return rank(scene, {.threads = executor_.threads,
+                                .at = options_.at,
+                                .share = share,
+                                .earlier = earlier});
+        };
+        Ranking ranking = ranked(all_measured());
+        const auto is_ranked = [&](std::size_t s) {
+            return ranking.strategies[s].status == Status::ranked;
+        };
+        if (trust_fewer(is_ranked)) ranking = ranked(measured_by_trusted());  // some were biased
         study_.report.strategies = std::move(ranking.strategies);
         study_.report.pairs = std::move(ranking.pairs);
         study_.report.settled = ranking.settled;
@@ -332,29 +338,40 @@ private:
         study_.report.lacks_audit = !audit_ && !is_dark();
     }
 
-    /// All by one reference. First the means of all strategies make it, then those of strategies
-    /// whose variance is resolved, and of these those whose relative variance is, too.
+    /// All by one reference, of the means of those that are resolved: first by what takes no
+    /// reference, then by the relative variance, too.
     SceneMeasurements all_measured()
     {
-        std::vector<bool> trusted(strategies_.size());
-        for (std::size_t s = 0; s < strategies_.size(); ++s) trusted[s] = study_.runs[s] != nullptr;
-        SceneMeasurements scene = measured_by(trusted);
-        for (const auto why_not : {why_variance_not_resolved, why_not_resolved}) {
-            std::vector<bool> fewer = trusted;
-            for (std::size_t s = 0; s < strategies_.size(); ++s)
-                fewer[s] = trusted[s] && why_not(scene.strategies[s]).empty();
-            if (fewer == trusted) continue;
-            if (std::find(fewer.begin(), fewer.end(), true) == fewer.end()) break;
-            trusted = fewer;
-            scene = measured_by(trusted);
-        }
+        trusted_.assign(strategies_.size(), false);
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            trusted_[s] = study_.runs[s] != nullptr;
+        SceneMeasurements scene = measured_by_trusted();
+        const auto passes = [&](auto why_not) {
+            return
+                [&scene, why_not](std::size_t s) { return why_not(scene.strategies[s]).empty(); };
+        };
+        const bool some_are_blind = trust_fewer(passes(why_blind));
+        if (trust_fewer(passes(why_variance_not_resolved)) || some_are_blind)
+            scene = measured_by_trusted();
+        if (trust_fewer(passes(why_not_resolved))) scene = measured_by_trusted();
         return scene;
     }
 
-    /// Against the means of those that are trusted.
-    SceneMeasurements measured_by(const std::vector<bool>& trusted)
+    /// Trusts only those of the trusted that pass, if any does. Are they fewer?
+    template <class Passes> bool trust_fewer(const Passes& passes)
     {
-        study_.reference_weights = pooling_weights(study_.runs, trusted);
+        std::vector<bool> fewer = trusted_;
+        for (std::size_t s = 0; s < fewer.size(); ++s) fewer[s] = trusted_[s] && passes(s);
+        const bool is_any_left = std::find(fewer.begin(), fewer.end(), true) != fewer.end();
+        if (!is_any_left || fewer == trusted_) return false;
+        trusted_ = std::move(fewer);
+        return true;
+    }
+
+    /// Against the means of those that are trusted.
+    SceneMeasurements measured_by_trusted()
+    {
+        study_.reference_weights = pooling_weights(study_.runs, trusted_);
         PooledMeans means = pooled_means(study_.runs, study_.reference_weights,
                                          study_.points->shading.points.size());
         RelativeScale scale = relative_scale(std::move(means.values), *study_.points,
@@ -418,7 +435,8 @@ private:
     ErrorSpending spending_;
     std::vector<CostEstimate> costs_;
     std::vector<bool> rests_;
-    bool spreads_ = false;  ///< samples over tiles
+    std::vector<bool> trusted_;  ///< [strategy]: do its means count in the reference?
+    bool spreads_ = false;       ///< samples over tiles
     std::vector<double> weights_, tile_factors_;
     std::optional<StudyAudit> audit_;
 };

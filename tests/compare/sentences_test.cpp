@@ -47,6 +47,42 @@ TEST(Sentences, BeginWithWhatToUseAndWhatItSaves)
     expect_said(all_of(scene), "It is sure to lead in time to 1 % error");
 }
 
+TEST(Sentences, ClaimNoMoreThanWasLookedAt)
+{
+    SceneReport scene = scene_of(
+        {simulate("uniform", uniform_samples(0.3)), simulate("other", uniform_samples(0.02))});
+    EXPECT_EQ(all_of(scene).find("Intervals are rough"), std::string::npos);
+    EXPECT_EQ(all_of(scene).find("audited"), std::string::npos);
+    scene.replicates = 8;
+    expect_said(all_of(scene), "Intervals are rough: there was room for 8 replicates, not 16");
+    scene.partial = true;
+    EXPECT_EQ(all_of(scene).find("Intervals are rough"), std::string::npos);
+    scene.lacks_audit = true;
+    expect_said(all_of(scene), "By these samples it leads in time to 1 % error");
+    expect_said(all_of(scene), "Sequences are not audited");
+}
+
+TEST(Sentences, NameNothingAsPerhapsBetterThatTheAuditFoundWorse)
+{
+    SceneReport scene = scene_of(
+        {simulate("uniform", uniform_samples(0.3)), simulate("other", uniform_samples(0.02))});
+    StrategyReport& other = scene.strategies[1];
+    other.status = Status::not_resolved, other.reason = "of something";
+    scene.pairs.clear();
+    expect_said(all_of(scene), "Not yet sure: other/power is not resolved, and ahead of it");
+    other.least_growth = {.variance = 1e6, .relative_variance = 1e6};
+    EXPECT_EQ(all_of(scene).find("ahead of it"), std::string::npos);
+}
+
+TEST(Sentences, CallABlackSceneBlack)
+{
+    SceneReport scene = scene_of(
+        {simulate("uniform", uniform_samples(0.3)), simulate("other", uniform_samples(0.02))});
+    for (StrategyReport& s : scene.strategies) s.exact = true, s.mean = 0;
+    expect_said(all_of(scene), "No light reaches any point that was measured");
+    EXPECT_EQ(all_of(scene).find("Use "), std::string::npos);
+}
+
 TEST(Sentences, CompareWithTheNextBestAndWithWhatIsUsual)
 {
     const std::string text = sentences_of(

@@ -72,7 +72,7 @@ async function draw_hero() {
   canvas.width = m.width;
   canvas.height = m.height;
   canvas.getContext("2d").putImageData(paint_mean(m, reference.mean, reference, null, gain, 2.2), 0, 0);
-  $("hero-caption").textContent = "The scene: all strategies' samples together.";
+  $("hero-caption").textContent = "The scene: the ranked strategies' samples together.";
   canvas.dataset.painted = "yes";
 }
 
