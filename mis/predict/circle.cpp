@@ -5,10 +5,11 @@ namespace mis {
 std::array<PlanePoint, 2> tangent_points(const Circle& circle)
 {
     const double far = std::hypot(circle.bx, circle.by);
-    if (!(circle.sine < far)) return {};
+    if (circle.is_great() || !(circle.sine < far)) return {};  // a great circle crosses them all
     const double toward = std::atan2(circle.by, circle.bx), half = std::asin(circle.sine / far);
-    const double tau =
-        std::sqrt(circle.c / circle.a);  // the double root of a meridian that touches
+    const double tau = circle.a != 0
+                           ? std::sqrt(circle.c / circle.a)  // the double root where one touches
+                           : infinity;
     return {{{toward - half, tau}, {toward + half, tau}}};
 }
 
