@@ -7,63 +7,74 @@
 namespace mis {
 inline namespace MIS_ISA {
 
-// The random numbers of one draw of every row. Counters are gathered first, then scrambled in
-// lanes; rows beyond the last scramble what was there.
+// The random numbers of one draw of every row, in lanes of rows of one point.
 
-struct WordColumns {
-    alignas(64) Column<std::uint32_t> a, b, c, d;
-};
-
-template <class T>
-void gather_counters(const TileJob<T>& job, const Batch<T>& batch, Block block, WordColumns& words)
+/// put(row, words) for lanes of rows: each random word of the block as low halves. Lanes may reach
+/// into the rows behind, which are put again then.
+template <class T, class Put>
+MIS_INLINE void scramble_rows(const TileJob<T>& job, const Batch<T>& batch, Block block,
+                              const Put& put)
 {
-    const auto put = [&](std::size_t i, std::uint32_t id, std::uint64_t sample)
-        __attribute__((always_inline))
-    {
-        const Words start = counter_words({id, sample, batch.draw}, block);
-        words.a[i] = start[0], words.b[i] = start[1], words.c[i] = start[2], words.d[i] = start[3];
-    };
+    using P = PhiloxLanes;
+    alignas(64) Column<std::uint64_t> of_rows;  // NOLINT: filled as far as it is read
+    if (!batch.rows_are_samples)
+        for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i)
+            of_rows[i] = sample_of(batch, i);
+    const std::uint64_t* samples =
+        batch.rows_are_samples ? batch.sample_number.data() : of_rows.data();
     for_each_run(
         batch, [&](int first, int end) __attribute__((always_inline)) {
             const std::uint32_t id = shading_point(job, batch, first).id;
             const auto begin = static_cast<std::size_t>(first),
                        last = static_cast<std::size_t>(end);
-            if (batch.rows_are_samples)
-                for (std::size_t i = begin; i < last; ++i) put(i, id, batch.sample_number[i]);
-            else
-                for (std::size_t i = begin; i < last; ++i) put(i, id, sample_of(batch, i));
+            const auto alike = [&](std::size_t i) __attribute__((always_inline))
+            {
+                return AlikeCounters(job.numbers.seed,
+                                     counter_words({id, samples[i], batch.draw}, block));
+            };
+            std::uint64_t apart = 0;
+            for (std::size_t i = begin; i < last; ++i) apart |= samples[i] ^ samples[begin];
+            if (apart >> 32 == 0) {
+                const AlikeCounters counters = alike(begin);
+                for (std::size_t i = begin; i < last; i += P::count)
+                    put(i, counters.scrambled(P::load(&samples[i])));
+            } else {
+                for (std::size_t i = begin; i < last; ++i)
+                    put(i, alike(i).scrambled(P::all(samples[i])));
+            }
         });
-}
-
-inline void scramble(std::uint64_t seed, int rows, WordColumns& words)
-{
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rows); i += PhiloxLanes::count)
-        scramble_lanes(seed, {&words.a[i], &words.b[i], &words.c[i], &words.d[i]});
 }
 
 /// → bits, u, v.
 template <class T> void light_numbers(const TileJob<T>& job, Batch<T>& batch)
 {
-    WordColumns words;  // NOLINT: filled as far as it is read
-    gather_counters(job, batch, Block::light, words);
-    scramble(job.numbers.seed, batch.rows, words);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i) {
-        batch.bits[i] = std::uint64_t{words.a[i]} << 32 | words.b[i];
-        batch.u[i] = unit_number<T>(words.c[i]);
-        batch.v[i] = unit_number<T>(words.d[i]);
-    }
+    using P = PhiloxLanes;
+    Column<std::uint32_t> u, v;  // NOLINT: filled as far as they are read
+    scramble_rows(
+        job, batch,
+        Block::light, [&](std::size_t i, const auto& words) __attribute__((always_inline)) {
+            P::store(&batch.bits[i], P::low_halves(words.a, words.b));
+            P::store_low_halves(&u[i], words.c), P::store_low_halves(&v[i], words.d);
+        });
+    for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i)
+        batch.u[i] = unit_number<T>(u[i]), batch.v[i] = unit_number<T>(v[i]);
 }
 
 /// → lobe, u, v.
 template <class T> void bsdf_numbers(const TileJob<T>& job, Batch<T>& batch)
 {
-    WordColumns words;  // NOLINT: filled as far as it is read
-    gather_counters(job, batch, Block::bsdf, words);
-    scramble(job.numbers.seed, batch.rows, words);
+    using P = PhiloxLanes;
+    Column<std::uint32_t> lobe, u, v;  // NOLINT: filled as far as they are read
+    scramble_rows(
+        job, batch,
+        Block::bsdf, [&](std::size_t i, const auto& words) __attribute__((always_inline)) {
+            P::store_low_halves(&lobe[i], words.b);
+            P::store_low_halves(&u[i], words.c), P::store_low_halves(&v[i], words.d);
+        });
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i) {
-        batch.lobe[i] = unit_number<T>(words.b[i]);
-        batch.u[i] = unit_number<T>(words.c[i]);
-        batch.v[i] = unit_number<T>(words.d[i]);
+        batch.lobe[i] = unit_number<T>(lobe[i]);
+        batch.u[i] = unit_number<T>(u[i]);
+        batch.v[i] = unit_number<T>(v[i]);
     }
 }
 
@@ -123,11 +134,14 @@ void sobol_words(int rows, const Column<std::uint32_t>& index, const Column<std:
 /// apart where there are many, is random.
 template <class T> void sobol_light_numbers(const TileJob<T>& job, Batch<T>& batch)
 {
-    WordColumns low;                     // NOLINT: filled as far as it is read
+    Column<std::uint32_t> low;           // NOLINT: filled as far as it is read
     SequenceColumns at;                  // NOLINT
     Column<std::uint32_t> choice, u, v;  // NOLINT
-    gather_counters(job, batch, Block::light, low);
-    scramble(job.numbers.seed, batch.rows, low);
+    scramble_rows(
+        job, batch,
+        Block::light, [&](std::size_t i, const auto& words) __attribute__((always_inline)) {
+            PhiloxLanes::store_low_halves(&low[i], words.b);
+        });
     const std::uint32_t stream = job.draws_every_light ? batch.draw / job.draws_per_light : 0;
     gather_sequence_points(job, batch, Block::light,
                            {stream, job.draws_per_light, batch.draw % job.draws_per_light}, at);
@@ -135,7 +149,7 @@ template <class T> void sobol_light_numbers(const TileJob<T>& job, Batch<T>& bat
     sobol_words<Dimension::light_u>(batch.rows, at.index, at.key[key_of::light_u], u);
     sobol_words<Dimension::light_v>(batch.rows, at.index, at.key[key_of::light_v], v);
     for (std::size_t i = 0; i < static_cast<std::size_t>(batch.rows); ++i) {
-        batch.bits[i] = std::uint64_t{choice[i]} << 32 | low.b[i];
+        batch.bits[i] = std::uint64_t{choice[i]} << 32 | low[i];
         batch.u[i] = unit_number<T>(u[i]);
         batch.v[i] = unit_number<T>(v[i]);
     }

@@ -256,8 +256,9 @@ TEST(InstructionSets, WeighLightsByWhatTheSurfaceReflectsOfThem)
 }
 
 /// What `mis replay` and any other part of the work recompute: seed, point, sample, draw and block
-/// say it all.
-template <class T> void expect_numbers_of_the_counter(const Kernels<T>& kernels)
+/// say it all. 77 rows as after a compaction, runs of `run` of a point; from `start` on.
+template <class T>
+void expect_numbers_of_the_counter(const Kernels<T>& kernels, std::size_t run, std::uint64_t start)
 {
     std::array<ShadingPoint, 3> points{};
     for (std::size_t p = 0; p < 3; ++p) points[p].id = static_cast<std::uint32_t>(40 + 7 * p);
@@ -265,39 +266,43 @@ template <class T> void expect_numbers_of_the_counter(const Kernels<T>& kernels)
     const auto batch = std::make_unique<Batch<T>>();
     batch->rows = 77, batch->draw = 3;
     for (std::size_t i = 0; i < 77; ++i) {
-        const std::size_t slot = 76 - i;  // as after a compaction, rows are not slots
+        const std::size_t slot = 76 - i;
         batch->slot[i] = static_cast<std::int32_t>(slot);
-        batch->point[i] = static_cast<std::int32_t>(i % 3);
-        batch->sample_number[slot] = (std::uint64_t{5} << 32) + slot;
+        batch->point[i] = static_cast<std::int32_t>(i / run % 3);
+        batch->sample_number[slot] = start + slot;
     }
     batch->tile_point = {2, 0, 1};
     const auto words = [&](std::size_t i, Block block) {
-        const std::uint32_t id = points[batch->tile_point[i % 3]].id;
-        return random_words(job.numbers.seed, {id, (std::uint64_t{5} << 32) + 76 - i, 3}, block);
+        const std::uint32_t id = points[batch->tile_point[i / run % 3]].id;
+        return random_words(job.numbers.seed, {id, start + 76 - i, 3}, block);
     };
     kernels.light_numbers(job, *batch);
     for (std::size_t i = 0; i < 77; ++i) {
         const Words w = words(i, Block::light);
-        ASSERT_EQ(batch->bits[i], choice_bits(w));
-        ASSERT_EQ(batch->u[i], unit_number<T>(w[2]));
-        ASSERT_EQ(batch->v[i], unit_number<T>(w[3]));
+        ASSERT_EQ(batch->bits[i], choice_bits(w)) << i;
+        ASSERT_EQ(batch->u[i], unit_number<T>(w[2])) << i;
+        ASSERT_EQ(batch->v[i], unit_number<T>(w[3])) << i;
     }
     kernels.bsdf_numbers(job, *batch);
     for (std::size_t i = 0; i < 77; ++i) {
         const Words w = words(i, Block::bsdf);
-        ASSERT_EQ(batch->lobe[i], unit_number<T>(w[1]));
-        ASSERT_EQ(batch->u[i], unit_number<T>(w[2]));
-        ASSERT_EQ(batch->v[i], unit_number<T>(w[3]));
+        ASSERT_EQ(batch->lobe[i], unit_number<T>(w[1])) << i;
+        ASSERT_EQ(batch->u[i], unit_number<T>(w[2])) << i;
+        ASSERT_EQ(batch->v[i], unit_number<T>(w[3])) << i;
     }
 }
 
 TEST(InstructionSets, NumbersAreThoseOfTheCounter)
 {
-    for (const std::string_view set : instruction_sets()) {
-        SCOPED_TRACE(set);
-        expect_numbers_of_the_counter(kernels_of<float>(set));
-        expect_numbers_of_the_counter(kernels_of<double>(set));
-    }
+    constexpr std::uint64_t upper = std::uint64_t{5} << 32;
+    for (const std::string_view set : instruction_sets())
+        for (const std::size_t run : {1U, 6U, 16U})
+            for (const std::uint64_t start : {std::uint64_t{0}, upper, upper - 40}) {
+                SCOPED_TRACE(std::string(set) + ", runs of " + std::to_string(run) + " from " +
+                             std::to_string(start));
+                expect_numbers_of_the_counter(kernels_of<float>(set), run, start);
+                expect_numbers_of_the_counter(kernels_of<double>(set), run, start);
+            }
 }
 
 }  // namespace
