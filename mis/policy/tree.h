@@ -22,6 +22,8 @@ public:
                           draws_go_together = true;
     /// Groups opened at a point: of up to some 330 lights all, where `tree` is `product`.
     static constexpr std::size_t most_open = 24;
+    /// Of them so many at once, so that none waits for what is found in another.
+    static constexpr std::size_t open_at_once = 3;
     /// No part is opened whose doubt is less than this share of all weights.
     static constexpr double least_doubt = 0.003;
     static constexpr std::size_t table_bytes(std::size_t)
@@ -230,28 +232,37 @@ private:
         return at;
     }
 
-    /// Opens groups from the root on, always the part that is most in doubt; then gives parts that
-    /// were opened the weight that was found within.
+    /// Weighs what is in a group that `order` has found.
+    template <class T, class Reflection>
+    MIS_INLINE void look_into(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
+                              OpenGroup<Scalar<T>>& group, bool may_open_all) const
+    {
+        group.opened = {};
+        if (group.is_of_lights)
+            weigh_lights<T>(reflection, at, tree_->lights()[group.group], group.sums);
+        else
+            weigh_parts<T>(reflection, at, tree_->nodes()[group.group], group.sums, group.doubts,
+                           !may_open_all);
+    }
+
+    /// Opens groups from the root on, always the parts that are most in doubt; then gives parts
+    /// that were opened the weight that was found within.
     template <class T, class Reflection>
     MIS_INLINE void open_groups(const Reflection& reflection, const TreePoint<Scalar<T>>& at,
                                 std::span<OpenGroup<Scalar<T>>> open) const
     {
         const bool may_open_all = tree_->nodes().size() + tree_->lights().size() <= most_open;
         OpenOrder<Scalar<T>, most_open> order;
-        OpenGroup<Scalar<T>> next{.group = 0, .is_of_lights = false};
-        std::size_t count = 0;
-        do {
-            OpenGroup<Scalar<T>>& group = open[count];
-            group.group = next.group, group.is_of_lights = next.is_of_lights, group.opened = {};
-            if (group.is_of_lights)
-                weigh_lights<T>(reflection, at, tree_->lights()[group.group], group.sums);
-            else
-                weigh_parts<T>(reflection, at, tree_->nodes()[group.group], group.sums,
-                               group.doubts, !may_open_all);
-            order.add(group);
-            ++count;
-        } while (count < most_open &&
-                 order.next(open, *tree_, may_open_all ? 0 : least_doubt, next));
+        open[0].group = 0, open[0].is_of_lights = false;
+        std::size_t known = 0, count = 1;
+        while (known < count) {
+            for (; known < count; ++known) look_into<T>(reflection, at, open[known], may_open_all);
+            for (std::size_t i = order.count(); i < count; ++i) order.add(open[i]);
+            const std::size_t most = std::min(count + open_at_once, most_open);
+            while (count < most &&
+                   order.next(open, *tree_, may_open_all ? 0 : least_doubt, open[count]))
+                ++count;
+        }
         while (--count > 0) {
             sum_up(open[count].sums);
             open[order.from(count).group].sums[order.from(count).part] = open[count].sums.back();

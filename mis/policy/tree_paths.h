@@ -58,14 +58,14 @@ MIS_INLINE bool sum_up(LightTree::Row<double>& weights)
         Quarters::raise_to(some, least);
         some = counts ? some : none;
     }
-    std::memcpy(weights.data(), quarters.of.data(), sizeof quarters.of);
-    for (std::size_t k = 1; k < quarter; ++k)
-        for (std::size_t q = 0; q < LightTree::width; q += quarter)
-            weights[q + k] += weights[q + k - 1];
-    for (std::size_t q = quarter; q < LightTree::width; q += quarter) {
-        const double before = weights[q - 1];
-        for (std::size_t k = 0; k < quarter; ++k) weights[q + k] += before;
+    // Within each quarter: by neighbours, then by pairs; then those before it.
+    for (Quarters::Lanes& some : quarters.of) {
+        some += __builtin_shufflevector(some, none, 4, 0, 1, 2);
+        some += __builtin_shufflevector(some, none, 4, 4, 0, 1);
     }
+    for (std::size_t q = 1; q < quarters.of.size(); ++q)
+        quarters.of[q] += quarters.of[q - 1][quarter - 1];
+    std::memcpy(weights.data(), quarters.of.data(), sizeof quarters.of);
     return weights.back() > 0;
 }
 
@@ -137,17 +137,19 @@ template <class S> struct OpenGroup {
     LightTree::Row<double> sums{};          ///< weights, then their running sums
 };
 
-/// Which part to open next: the one most in doubt. At most `most` groups.
+/// Which parts to open next: those most in doubt. At most `most` groups.
 template <class S, std::size_t most> class OpenOrder {
 public:
     struct From {
         std::uint8_t group, part;
     };
 
-    /// Another group; the weights and doubts of its parts are known.
+    /// The root, or the next of those that were found: the weights and doubts of its parts are
+    /// known.
     MIS_INLINE void add(OpenGroup<S>& group)
     {
         total_ += detail::Quarters<double>(group.sums).sum() - replaced_;
+        replaced_ = 0;
         most_doubt_[count_] = group.is_of_lights ? 0 : detail::Quarters<S>(group.doubts).largest();
         ++count_;
     }
@@ -162,27 +164,30 @@ public:
             if (most_doubt_[i] > most_doubt_[g]) g = i;
         if (!(static_cast<double>(most_doubt_[g]) > share * total_)) return false;
         LightTree::Row<S>& doubts = open[g].doubts;
-        while (doubts[k] != most_doubt_[g]) ++k;
+        for (std::size_t i = LightTree::width; i-- > 0;) k = doubts[i] == most_doubt_[g] ? i : k;
         doubts[k] = 0;
         most_doubt_[g] = detail::Quarters<S>(doubts).largest();
-        replaced_ = open[g].sums[k];
-        from_[count_] = {static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(k)};
-        open[g].opened[k] = static_cast<std::uint8_t>(count_);
+        replaced_ += open[g].sums[k];
+        from_[found_] = {static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(k)};
+        open[g].opened[k] = static_cast<std::uint8_t>(found_++);
         const LightTree::NodeGroup& parts = tree.nodes()[open[g].group];
         found.group = parts.child + static_cast<std::uint32_t>(k);
         found.is_of_lights = parts.is_lowest != 0;
         return true;
     }
 
+    /// Groups that were added.
+    std::size_t count() const { return count_; }
+
     /// Of which part of which open group is open group i? i > 0.
     const From& from(std::size_t i) const { return from_[i]; }
 
 private:
-    std::size_t count_ = 0;
-    double total_ = 0;                ///< of the weights of all parts that are not opened
-    double replaced_ = 0;             ///< the weight of the part that is being opened
-    std::array<S, most> most_doubt_;  // NOLINT: as from_, filled by add
-    std::array<From, most> from_;     // NOLINT
+    std::size_t count_ = 0, found_ = 1;  ///< groups added; found, with the root
+    double total_ = 0;                   ///< of the weights of all parts that are not opened
+    double replaced_ = 0;                ///< of the weights of the parts that are being opened
+    std::array<S, most> most_doubt_;     // NOLINT: as from_, filled by add
+    std::array<From, most> from_;        // NOLINT
 };
 
 }  // namespace mis
