@@ -18,7 +18,7 @@ namespace mis::cli {
 
 namespace {
 
-constexpr std::size_t strategies_of_reference = 2;
+constexpr std::size_t strategies_of_reference = 4;
 
 void check_options(const CostCommandOptions& options)
 {

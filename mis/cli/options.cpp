@@ -37,6 +37,9 @@ void check(const OutputOptions& options)
 {
     if (options.json == "-" && options.csv == "-")
         throw UsageError("--json and --csv: found - for both; standard output takes one of them");
+    if (!options.json.empty() && options.json == options.csv)
+        throw UsageError(fmt::format(
+            "--json and --csv: found {} for both; a file takes one of them", options.json));
     check_output_file("--json", options.json);
     check_output_file("--csv", options.csv);
 }

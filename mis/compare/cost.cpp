@@ -10,19 +10,23 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace mis {
 namespace {
 
-/// Of the root of a squared error. Where that is not above 0, only an upper bound is known.
-Interval error_interval(const SquaredError& e)
+/// Of the root of a squared error. Where the reference does not tell it, only an upper bound is
+/// known, which is no lower than what the reference tells.
+Interval error_interval(const SquaredError& e, const ReferenceError& reference)
 {
     if (e.value > 0 && e.trust != Trust::below_reference)
         return interval_of({0.5 * std::log(e.value), 0.5 * e.se / e.value, e.dof});
-    const double least = std::max(0.0, e.value);
-    if (std::isnan(e.se)) return {std::sqrt(least), nan, nan};
+    if (e.value == 0 && e.se == 0) return {0, 0, 0};  // to the last bit
+    const double least =
+        std::max({e.value, reference.floor, rounding_of_means * rounding_of_means});
+    if (std::isnan(e.se)) return {std::sqrt(std::max(0.0, e.value)), nan, nan};
     const double high = least + (e.se > 0 ? t_quantile(interval_tail, e.dof) * e.se : 0);
-    return {std::sqrt(least), 0, std::sqrt(high)};
+    return {std::sqrt(std::max(0.0, e.value)), 0, std::sqrt(high)};
 }
 
 Interval scaled(Interval x, double factor)
@@ -40,7 +44,7 @@ std::vector<double> seconds_of(std::span<const TimeObservation> times, double sa
 CostPoint point_of(const CostLevel& level, const SquaredError& error, const CostGround& ground)
 {
     return {.samples = level.samples,
-            .error = error_interval(error),
+            .error = error_interval(error, ground.reference),
             .seconds = scaled(interval_of_median(level.seconds),
                               static_cast<double>(ground.points) / ground.threads),
             .trust = error.trust,
@@ -55,10 +59,17 @@ bool is_one_enough(const CostLevel& level, const SquaredError& error, const Cost
            std::max(error.value, ground.reference.floor) <= square;
 }
 
-/// log(samples) where the error falls to √square, between two trusted levels, from the last pair
-/// that has it between them; NaN where none has. Errors of the levels are independent.
-LogEstimate interpolated(std::span<const CostLevel> levels, std::span<const SquaredError> errors,
-                         double square)
+/// A place between two levels.
+struct Between {
+    const CostLevel *before, *after;
+    double part;              ///< of the way, in logarithms; in [0, 1]
+    LogEstimate log_samples;  ///< there
+};
+
+/// Where the error falls to √square, between two trusted levels, from the last pair that has it
+/// between them; nothing where none has. Errors of the levels are independent.
+std::optional<Between> interpolated(std::span<const CostLevel> levels,
+                                    std::span<const SquaredError> errors, double square)
 {
     for (std::size_t k = levels.size(); k-- > 1;) {
         const SquaredError &a = errors[k - 1], &b = errors[k];
@@ -70,14 +81,37 @@ LogEstimate interpolated(std::span<const CostLevel> levels, std::span<const Squa
         LogEstimate n = product({0, per_log * (1 - part) * a.se / a.value, a.dof},
                                 {0, per_log * part * b.se / b.value, b.dof});
         n.value = std::log(double(levels[k - 1].samples)) + part * step;
-        return n;
+        return Between{&levels[k - 1], &levels[k], part, n};
     }
-    return {nan, nan, 1};
+    return std::nullopt;
+}
+
+/// Logarithm of the wall time there, from what the two levels took.
+LogEstimate log_wall_seconds(const Between& at, const CostGround& ground)
+{
+    const LogEstimate a = log_median(at.before->seconds), b = log_median(at.after->seconds);
+    const double step = std::log(double(at.after->samples) / double(at.before->samples));
+    const LogEstimate clock = product({0, (1 - at.part) * a.se, a.dof}, {0, at.part * b.se, b.dof});
+    LogEstimate wall =
+        product(clock, {0, (b.value - a.value) / step * at.log_samples.se, at.log_samples.dof});
+    wall.value = a.value + at.part * (b.value - a.value) +
+                 std::log(static_cast<double>(ground.points) / ground.threads);
+    return wall;
+}
+
+/// The last trusted level, whose errors are those of scrambled sequences: they fall at least as
+/// fast as the root of their samples.
+const CostLevel* last_of_sequences(std::span<const CostLevel> levels,
+                                   std::span<const SquaredError> errors)
+{
+    for (std::size_t k = levels.size(); k-- > 0;)
+        if (errors[k].trust == Trust::trusted && !levels[k].spreads.empty()) return &levels[k];
+    return nullptr;
 }
 
 TimeToError time_to(double error, const CostMeasurements& curve,
                     std::span<const SquaredError> errors, const CostGround& ground,
-                    const CostModel& model, bool fits)
+                    const CostModel& model, const CostCurveReport& curve_found)
 {
     const double square = error * error;
     TimeToError found{.error = error, .samples = nan, .seconds = unknown_interval()};
@@ -88,11 +122,26 @@ TimeToError time_to(double error, const CostMeasurements& curve,
         return found;
     };
     if (curve.levels.empty()) return found;
-    if (is_one_enough(curve.levels[0], errors[0], ground, square))
-        return at({0, 0, 1}, Reach::measured);
-    const LogEstimate between = interpolated(curve.levels, errors, square);
-    if (!std::isnan(between.value)) return at(between, Reach::measured);
-    if (!fits || std::isnan(model.log_variance.value)) return found;
+    if (is_one_enough(curve.levels[0], errors[0], ground, square)) {
+        found = at({0, 0, 1}, Reach::measured);
+        found.seconds = curve_found.points[0].seconds;
+        return found;
+    }
+    if (const std::optional<Between> between = interpolated(curve.levels, errors, square)) {
+        found = at(between->log_samples, Reach::measured);
+        const LogEstimate wall = log_wall_seconds(*between, ground);
+        if (std::isfinite(wall.value)) found.seconds = interval_of(wall);
+        return found;
+    }
+    const CostLevel* last = last_of_sequences(curve.levels, errors);
+    if (last != nullptr && (curve_found.fits || curve_found.slope.high < -0.5)) {
+        const SquaredError& e = errors[static_cast<std::size_t>(last - curve.levels.data())];
+        found = at({std::log(double(last->samples) * e.value / square), e.se / e.value, e.dof},
+                   Reach::at_most);
+        found.seconds.low = 0;
+        return found;
+    }
+    if (last != nullptr || !curve_found.fits || std::isnan(model.log_variance.value)) return found;
     LogEstimate beyond = model.log_variance;
     beyond.value -= std::log(square);
     return at(beyond, Reach::extrapolated);
@@ -142,6 +191,23 @@ bool tells_no_more(const CostMeasurements& curve, const ReferenceError& referenc
     return last.trust == Trust::trusted && last.value < smallest * smallest;
 }
 
+namespace {
+
+/// The same, so much longer or shorter that it is right for the longest level: what is extrapolated
+/// goes on from there.
+TimeObservation through_last(TimeObservation time, std::span<const CostLevel> levels,
+                             std::size_t replicate)
+{
+    const CostLevel& last = levels.back();
+    const double factor =
+        last.seconds[replicate] / time.seconds_for(static_cast<double>(last.samples));
+    if (!(factor > 0) || !std::isfinite(factor)) return time;
+    time.seconds_per_sample *= factor, time.seconds_per_point *= factor;
+    return time;
+}
+
+}  // namespace
+
 CostModel model_of(const CostMeasurements& curve, const CostGround& ground)
 {
     const std::vector<const CostLevel*> fitted = fitted_levels(curve.levels, ground.reference);
@@ -154,7 +220,7 @@ CostModel model_of(const CostMeasurements& curve, const CostGround& ground)
             std::min(model.least_error, std::sqrt(squared_error(*level, ground.reference).value));
     if (!curve.levels.empty())
         for (std::size_t r = 0; r < curve.levels[0].seconds.size(); ++r)
-            model.times.push_back(fitted_time(curve.levels, r));
+            model.times.push_back(through_last(fitted_time(curve.levels, r), curve.levels, r));
     return model;
 }
 
@@ -204,7 +270,9 @@ CostCurveReport curve_report(const CostMeasurements& curve, const CostGround& gr
     report.slope = linear_interval(slope);
     report.slope_in_time =
         linear_interval(fitted_slope(fitted, ground.reference, Against::seconds));
-    report.slope_p_value = two_sided_p(slope, -0.5);
+    report.slope_p_value = two_sided_p(fitted_slope(trusted_levels(curve.levels, ground.reference),
+                                                    ground.reference, Against::samples),
+                                       -0.5);
     report.fits = !(report.slope_p_value < least_fit_p);
     if (!std::isnan(model.log_variance.value) && (report.fits || curve.levels[0].spreads.empty()))
         report.relative_variance = interval_of(model.log_variance);
@@ -212,7 +280,7 @@ CostCurveReport curve_report(const CostMeasurements& curve, const CostGround& gr
     report.seconds_per_point = times.per_point;
     report.seconds_per_sample = times.per_sample;
     for (const double error : cost_targets)
-        report.times.push_back(time_to(error, curve, errors, ground, model, report.fits));
+        report.times.push_back(time_to(error, curve, errors, ground, model, report));
     return report;
 }
 

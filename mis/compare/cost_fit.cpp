@@ -95,6 +95,15 @@ std::vector<const CostLevel*> fitted_levels(std::span<const CostLevel> levels,
     return fitted;
 }
 
+std::vector<const CostLevel*> trusted_levels(std::span<const CostLevel> levels,
+                                             const ReferenceError& reference)
+{
+    std::vector<const CostLevel*> trusted;
+    for (const CostLevel& level : levels)
+        if (squared_error(level, reference).trust == Trust::trusted) trusted.push_back(&level);
+    return trusted;
+}
+
 LogEstimate fitted_variance(std::span<const CostLevel* const> levels,
                             const ReferenceError& reference)
 {
@@ -130,9 +139,9 @@ TimeObservation fitted_time(std::span<const CostLevel> levels, std::size_t repli
     if (!(vv > 0)) return {};
     const double determinant = uu * vv - uv * uv;
     const double shared = determinant > 1e-9 * uu * vv ? (u * vv - v * uv) / determinant : 0;
-    if (!(shared > 0)) return {v / vv, 0};
-    const double per_sample = (uu * v - uv * u) / determinant;
-    return per_sample > 0 ? TimeObservation{per_sample, shared} : TimeObservation{0, u / uu};
+    const double per_sample = shared > 0 ? (uu * v - uv * u) / determinant : 0;
+    // A sample takes some time, whatever a noisy clock says of two short levels.
+    return per_sample > 0 ? TimeObservation{per_sample, shared} : TimeObservation{v / vv, 0};
 }
 
 LogEstimate fitted_slope(std::span<const CostLevel* const> levels, const ReferenceError& reference,

@@ -13,6 +13,10 @@ namespace mis {
 std::vector<const CostLevel*> fitted_levels(std::span<const CostLevel> levels,
                                             const ReferenceError& reference);
 
+/// The levels that the slope is tested by: few rare samples make it anything.
+std::vector<const CostLevel*> trusted_levels(std::span<const CostLevel> levels,
+                                             const ReferenceError& reference);
+
 /// Logarithm of V in error² = V/n: the mean of samples · error² over the levels, each counted
 /// alike, so that no level is preferred for having come out low. NaN where there is no level, or V
 /// is not above 0.
@@ -21,7 +25,7 @@ LogEstimate fitted_variance(std::span<const CostLevel* const> levels,
 
 /// Seconds of a point that a replicate's levels share, and seconds per sample: least squares of the
 /// relative deviations. What is shared is its preparation and whatever else a point takes once; of
-/// one level, 0. Precondition: at least one level.
+/// one level, or where noise would leave nothing for a sample, 0. Precondition: at least one level.
 TimeObservation fitted_time(std::span<const CostLevel> levels, std::size_t replicate);
 
 /// What an error is drawn against.

@@ -48,8 +48,10 @@ struct Source {
     }
 };
 
-/// Beyond so many lights, drawing all of them is no longer worth while.
-constexpr std::size_t most_lights_to_draw = 16;
+/// Of more lights than that, samples of all of them are fewer.
+constexpr std::size_t few_lights = 16;
+/// Of more pairs of light and point, not even a few samples of all lights are worth while.
+constexpr double most_pairs_to_draw = 3e7, most_pairs_to_weigh = 1e8;
 constexpr int check_share = 8;  ///< the best gets so many times the samples of those that check it
 
 std::vector<Strategy> sources_for(const StudyGround& ground)
@@ -58,15 +60,18 @@ std::vector<Strategy> sources_for(const StudyGround& ground)
     const double pairs =
         static_cast<double>(lights) * static_cast<double>(ground.points.figure_lit);
     std::vector<Strategy> sources{parse_strategy("power/power")};
-    if (pairs < 1e8) sources.push_back(parse_strategy("radiant-solid-angle/power"));
-    if (lights <= most_lights_to_draw) sources.push_back(parse_strategy("all/power"));
+    if (pairs < most_pairs_to_weigh) sources.push_back(parse_strategy("radiant-solid-angle/power"));
+    if (pairs < most_pairs_to_draw) sources.push_back(parse_strategy("all/power"));
+    if (lights > few_lights) sources.push_back(parse_strategy("tree/power"));
     return sources;
 }
 
-/// Draws per sample: what a sample costs, the same on every machine.
-double draws_of(const Strategy& strategy, std::size_t lights)
+/// Samples of a source where `count` are taken of one that draws one light.
+int samples_of(const Strategy& strategy, std::size_t lights, int count)
 {
-    return 1 + (draws_every_light(strategy.policy) ? static_cast<double>(lights) : 1);
+    if (!draws_every_light(strategy.policy) || lights <= few_lights) return count;
+    const double share = static_cast<double>(few_lights) / static_cast<double>(lights);
+    return std::max(2, static_cast<int>(share * count));
 }
 
 std::vector<double> pooled_means(std::span<const Source> sources, std::size_t points)
@@ -153,6 +158,13 @@ CostReference finished(const StudyGround& ground, std::span<const Source> source
 
 }  // namespace
 
+double draws_of(const Strategy& strategy, std::size_t lights)
+{
+    if (!strategy.chooses_light()) return 1;
+    const double of_light = draws_every_light(strategy.policy) ? static_cast<double>(lights) : 1;
+    return strategy.counts[0] * of_light + strategy.counts[1];
+}
+
 std::optional<CostReference> exact_reference(const StudyGround& ground)
 {
     const Scene& scene = ground.scene.scene();
@@ -197,7 +209,9 @@ CostReference pooled_reference(const StudyGround& ground, const ReferenceLimit& 
         const Clock::time_point round = Clock::now();
         for (std::size_t s = 0; s < sources.size(); ++s) {
             const int own = s == 0 || taken == 0 ? count : std::max(1, count / check_share);
-            sources[s].run.sample_apart(own, ground.workspaces, ground.executor);
+            const std::size_t lights = ground.scene.scene().lights.size();
+            sources[s].run.sample_apart(samples_of(sources[s].run.strategy(), lights, own),
+                                        ground.workspaces, ground.executor);
         }
         weigh(ground, sources);
         if (taken == 0) put_best_first(sources, ground.scene.scene().lights.size());

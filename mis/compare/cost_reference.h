@@ -31,10 +31,13 @@ inline constexpr std::size_t most_lights_for_quadrature = 64;
 /// hide. Nothing where that cannot answer.
 std::optional<CostReference> exact_reference(const StudyGround& ground);
 
-/// From samples of up to three strategies that fail in different places, each weighed by its
-/// samples over its relative variance: most are of the best, the others check it. `power/power`
-/// alone where there are many lights. Their random numbers serve nothing else. How far they differ
-/// beyond their noise counts as the reference's error.
+/// Draws per sample: what a sample costs, the same on every machine.
+double draws_of(const Strategy& strategy, std::size_t lights);
+
+/// From samples of up to four strategies that fail in different places, each weighed by its samples
+/// over its relative variance: most are of the best, the others check it. Of those that look at
+/// every light, none where there are too many. Their random numbers serve nothing else. How far
+/// they differ beyond their noise counts as the reference's error.
 CostReference pooled_reference(const StudyGround& ground, const ReferenceLimit& limit);
 
 }  // namespace mis

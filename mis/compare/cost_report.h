@@ -32,15 +32,16 @@ struct CostPoint {
                   std::numeric_limits<double>::quiet_NaN()};
 };
 
-/// measured: between two measured points, or 1 sample is enough; extrapolated: beyond them, by
-/// error² = V/n.
-enum class Reach { measured, extrapolated, unknown };
+/// measured: between two measured points, or 1 sample is enough; extrapolated: by error² = V/n,
+/// beyond them or where few rare samples carry them; at_most: of scrambled sequences beyond them,
+/// whose error falls at least as fast.
+enum class Reach { measured, extrapolated, at_most, unknown };
 
 /// When a relative error is reached.
 struct TimeToError {
     double error = 0;    ///< one of cost_targets
     double samples = 0;  ///< per shading point, at least 1; NaN where unknown
-    Interval seconds;    ///< wall time on the stated threads, with preparation
+    Interval seconds;    ///< wall time on the stated threads, with preparation; at_most: low is 0
     Reach reach = Reach::unknown;
 };
 
@@ -52,7 +53,7 @@ struct CostCurveReport {
     std::vector<CostPoint> points;  ///< by samples
     Interval slope;              ///< d log(error)/d log(samples): −½ for any unbiased estimate
     Interval slope_in_time;      ///< d log(error)/d log(seconds): steeper by what is prepared
-    double slope_p_value = 1;    ///< of −½ against the slope; below it nothing is extrapolated
+    double slope_p_value = 1;    ///< of −½ against the slope of the trusted points
     bool fits = true;            ///< error² = V/n holds as far as was measured
     Interval relative_variance;  ///< V: samples · error²
     Interval seconds_per_point, seconds_per_sample;  ///< CPU
@@ -85,6 +86,7 @@ struct CostSceneReport {
     std::size_t copies = 1;  ///< of every shading point in a replicate: probes are few
     double epsilon = 0;      ///< of the relative error
     bool is_sobol = false;   ///< a replicate of a point is one scrambled sequence
+    bool is_black = false;   ///< no sample of the reference met any light
     bool partial = false;
     double seconds = 0;  ///< wall
     ReferenceReport reference;

@@ -18,6 +18,7 @@ constexpr double reference_share = 0.3;         // of the time, at most
 constexpr std::uint64_t reference_factor = 64;  // its samples over the last doubling's, with --spp
 constexpr std::size_t levels_before_twins = 3;
 constexpr std::uint64_t most_samples = std::uint64_t{1} << 24;
+constexpr std::uint64_t most_samples_of_gain = 256;
 constexpr std::uint64_t apart = std::uint64_t{1} << 20;  // a stream that no replicate has
 
 /// One curve under way.
@@ -134,27 +135,35 @@ private:
             }
         }
         for (std::size_t c = 0; c < curves_.size(); ++c) {
-            if (curves_[c].is_done) continue;
-            levels[c].samples = samples;
-            curves_[c].measured.levels.push_back(std::move(levels[c]));
-            curves_[c].level_seconds = seconds[c];
-            curves_[c].all_seconds += seconds[c];
+            if (!curves_[c].is_done)
+                end_level(curves_[c], std::move(levels[c]), samples, seconds[c]);
         }
         ++level_;
         for (Curve& curve : curves_) end_if_done(curve, samples);
     }
 
-    /// Makes the curve's sampler. The first touch of memory is no cost of the strategy, so one
-    /// sample counts for nothing. False where there is no time for replicates of such samples.
+    static void end_level(Curve& curve, CostLevel level, std::uint64_t samples, double seconds)
+    {
+        level.samples = samples;
+        curve.measured.levels.push_back(std::move(level));
+        curve.level_seconds = seconds;
+        curve.all_seconds += seconds;
+    }
+
+    /// Makes the curve's sampler. The first touch of memory is no cost of the strategy, nor are the
+    /// lists that its first draws make for all strategies, so a few samples count for nothing.
+    /// False where there is no time for replicates of such samples.
     bool is_ready(Curve& curve)
     {
         if (curve.sampler) return true;
         const CostMeasurements& m = curve.measured;
-        const Clock::time_point start = Clock::now();
         curve.sampler =
             make_sampler(ground_, judged_, reference_, m.strategy, m.precision, options_.is_sobol);
+        const Clock::time_point start = Clock::now();
         curve.sampler->run(1, apart);
         const double seconds = seconds_since(start);
+        constexpr double little = 0.002;  // of the time that is left
+        if (seconds < little * seconds_left()) curve.sampler->run(3, apart + 1);
         if (options_.spp || seconds * replicate_count < 0.5 * seconds_left()) return true;
         curve.is_done = true;
         curve.measured.reason = "past the budget: one sample per point takes " + duration(seconds) +
@@ -185,30 +194,41 @@ private:
             to_come + static_cast<double>(std::count_if(curves_.begin(), curves_.end(),
                                                         [](const Curve& c) { return !c.is_done; }));
         const bool fits = 2 * curve.level_seconds <= 0.9 * seconds_left() / active;
-        curve.is_done =
-            !fits || 2 * samples > most_samples || tells_no_more(curve.measured, reference_.error);
+        const bool shows_gain = options_.is_sobol && samples < most_samples_of_gain;
+        curve.is_done = !fits || 2 * samples > most_samples ||
+                        (!shows_gain && tells_no_more(curve.measured, reference_.error));
     }
 
     void add_twins()
     {
-        std::vector<std::pair<double, const Curve*>> by_time;
-        for (const Curve& curve : curves_) {
-            if (curve.measured.levels.size() < levels_before_twins) continue;
-            const CostModel model = model_of(curve.measured, arithmetic_ground());
-            if (!std::isnan(model.log_variance.value))
-                by_time.emplace_back(log_seconds_to(model, 0.01).value, &curve);
-        }
+        std::vector<std::pair<double, std::size_t>> by_time;
+        for (std::size_t c = 0; c < curves_.size(); ++c)
+            if (curves_[c].measured.levels.size() >= levels_before_twins)
+                if (const double time = log_time_to_compare(curves_[c]); !std::isnan(time))
+                    by_time.emplace_back(time, c);
         if (by_time.empty()) return;
-        std::stable_sort(by_time.begin(), by_time.end(),
-                         [](const auto& a, const auto& b) { return a.first < b.first; });
-        const double seconds = by_time.front().second->all_seconds;
+        std::stable_sort(by_time.begin(), by_time.end());
+        const std::size_t best = by_time.front().second, count = curves_.size();
         std::vector<Strategy> strategies;
-        for (const auto& [_, curve] : by_time) strategies.push_back(curve->measured.strategy);
-        for (const CostChoice& twin : twins_of(strategies)) add_late(twin, seconds);
+        for (const auto& [_, c] : by_time) strategies.push_back(curves_[c].measured.strategy);
+        for (const CostChoice& twin : twins_of(strategies))
+            add_late(twin, curves_[best].all_seconds);
+        catch_up(best, count);
     }
 
-    /// A curve that begins later than the others, with the levels that they have; alike: what these
-    /// took of a strategy that is like it.
+    /// Logarithm of the time to 1 %; of a fixed number of samples, by draws, which no clock
+    /// decides.
+    double log_time_to_compare(const Curve& curve) const
+    {
+        const CostModel model = model_of(curve.measured, arithmetic_ground());
+        if (std::isnan(model.log_variance.value)) return model.log_variance.value;
+        if (!options_.spp) return log_seconds_to(model, 0.01).value;
+        return model.log_variance.value +
+               std::log(draws_of(curve.measured.strategy, ground_.scene.scene().lights.size()));
+    }
+
+    /// A curve that begins later than the others; alike: what these took of a strategy that is like
+    /// it.
     void add_late(const CostChoice& choice, double alike)
     {
         for (const Curve& curve : curves_)
@@ -222,25 +242,45 @@ private:
             curve.is_done = true;
             curve.measured.reason = "past the budget: no time is left for another curve";
         }
-        if (curve.is_done || !is_ready(curve)) return;
+        if (!curve.is_done) is_ready(curve);
+    }
+
+    /// Gives the curves from `first` on the levels that the others have, in turns with one of
+    /// those, which is timed anew: whatever the machine does, it does to all of them.
+    void catch_up(std::size_t beside, std::size_t first)
+    {
         for (std::size_t k = 0; k < level_; ++k) {
-            CostLevel level;
-            level.samples = std::uint64_t{1} << k;
-            const Clock::time_point start = Clock::now();
-            for (int r = 0; r < replicate_count; ++r) {
+            const std::uint64_t samples = std::uint64_t{1} << k;
+            std::vector<CostLevel> levels(curves_.size());
+            std::vector<double> seconds(curves_.size());
+            for (std::size_t r = 0; r < replicate_count; ++r) {
+                const std::uint64_t stream = k * replicate_count + r;
                 if (ground_.is_stopped()) return;
-                add_replicate(level, curve, level.samples,
-                              k * replicate_count + static_cast<std::uint64_t>(r));
+                curves_[beside].measured.levels[k].seconds[r] =
+                    curves_[beside].sampler->run(samples, stream).seconds;
+                for (std::size_t c = first; c < curves_.size(); ++c) {
+                    if (curves_[c].is_done) continue;
+                    const Clock::time_point start = Clock::now();
+                    add_replicate(levels[c], curves_[c], samples, stream);
+                    seconds[c] += seconds_since(start);
+                }
             }
-            curve.level_seconds = seconds_since(start);
-            curve.all_seconds += curve.level_seconds;
-            curve.measured.levels.push_back(std::move(level));
+            for (std::size_t c = first; c < curves_.size(); ++c) {
+                if (!curves_[c].is_done)
+                    end_level(curves_[c], std::move(levels[c]), samples, seconds[c]);
+            }
         }
     }
 
     CostGround arithmetic_ground() const
     {
         return {points_.figure_lit, ground_.executor.threads, reference_.error};
+    }
+
+    /// Number types are compared of one strategy, strategies in one number type.
+    static bool are_compared(const CostMeasurements& a, const CostMeasurements& b)
+    {
+        return a.precision == b.precision || a.strategy == b.strategy;
     }
 
     CostSceneReport report() const
@@ -258,6 +298,8 @@ private:
         report.is_sobol = options_.is_sobol;
         report.epsilon = reference_.scale.epsilon;
         report.reference = reference_.report;
+        report.is_black = std::all_of(reference_.means.begin(), reference_.means.end(),
+                                      [](double mean) { return mean == 0; });
         report.partial = ground_.is_stopped();
         std::vector<CostModel> models;
         for (const Curve& curve : curves_) {
@@ -267,9 +309,14 @@ private:
                 last.reason = points_.figure_lit == 0 ? "no point can be lit: every estimate is 0"
                                                       : "stopped before its turn";
             models.push_back(model_of(curve.measured, arithmetic_ground()));
-            if (!last.fits) models.back().log_variance.value = std::nan("");
+            // Sequences have no error² = V/n to go by.
+            if (!last.fits || options_.is_sobol) models.back().log_variance.value = std::nan("");
         }
         report.crossings = find_crossings(models);
+        std::erase_if(report.crossings, [&](const CrossingReport& crossing) {
+            return !are_compared(curves_[static_cast<std::size_t>(crossing.before)].measured,
+                                 curves_[static_cast<std::size_t>(crossing.after)].measured);
+        });
         report.seconds = seconds_since(start_);
         return report;
     }

@@ -136,6 +136,7 @@ const char* name_of(Reach reach)
 {
     return reach == Reach::measured       ? "measured"
            : reach == Reach::extrapolated ? "extrapolated"
+           : reach == Reach::at_most      ? "at_most"
                                           : "unknown";
 }
 

@@ -50,6 +50,17 @@ std::string reference(const ReferenceReport& r)
                     r.samples, r.sources.front(), others, percent(r.error)));
 }
 
+/// What an error is, of which all tables are.
+std::string definition(double epsilon)
+{
+    const std::string square =
+        epsilon > 0 ? "(reference^2 + " + number(epsilon, 2) + "^2)" : std::string("reference^2");
+    return wrapped(
+        "error: the root of the mean, over points and replicates, of "
+        "(estimate - reference)^2/" +
+        square);
+}
+
 /// Soonest to 1 % first, those without a curve last.
 std::vector<const CostCurveReport*> in_order(const CostSceneReport& scene)
 {
@@ -69,8 +80,10 @@ std::vector<const CostCurveReport*> in_order(const CostSceneReport& scene)
 std::string slope(const Interval& x)
 {
     if (!std::isfinite(x.value)) return "-";
-    if (!std::isfinite(x.high)) return fmt::format("{:.3f}", x.value);
-    return fmt::format("{:.3f}±{:.3f}", x.value, std::ceil(1e3 * (x.high - x.value) - 1e-9) / 1e3);
+    const double value = std::fabs(x.value) < 5e-4 ? 0 : x.value;
+    if (!std::isfinite(x.high)) return fmt::format("{:.3f}", value);
+    const double half_width = std::max(0.0, std::ceil(1e3 * (x.high - x.value) - 1e-9));
+    return fmt::format("{:.3f}±{:.3f}", value, half_width / 1e3);
 }
 
 /// "3.45±0.07", in percent: "<0.02" where only a bound is known; "~3.4" where rare samples carry
@@ -137,16 +150,17 @@ std::string errors(const CostSceneReport& scene)
     return "\n" + table.text();
 }
 
-/// "0.83s±3%", with "*" where extrapolated.
+/// "0.83s±3%", with "*" where extrapolated; "<0.83s" where that is a bound.
 std::string time_cell(const TimeToError& t)
 {
     if (t.reach == Reach::unknown) return "- ";
+    if (t.reach == Reach::at_most) return "<" + short_duration(t.seconds.high) + " ";
     const double error =
         std::max(t.seconds.high - t.seconds.value, t.seconds.value - t.seconds.low) /
         t.seconds.value;
     std::string text = short_duration(t.seconds.value);
-    if (std::isfinite(error) && error > 0)
-        text += fmt::format("±{:.0f}%", std::ceil(100 * error - 1e-9));
+    if (error > 1) text += "±>100%";
+    else if (error > 0) text += fmt::format("±{:.0f}%", std::ceil(100 * error - 1e-9));
     return text + (t.reach == Reach::extrapolated ? "*" : " ");
 }
 
@@ -197,15 +211,16 @@ std::string times(const CostSceneReport& scene)
     }
     if (!any) return "";
     return "\n" + table.text() +
-           (any_beyond ? "* beyond what was measured, by error = sqrt(V/samples)\n" : "");
+           (any_beyond ? "* beyond what is measured surely, by error = sqrt(V/samples)\n" : "");
 }
 
 }  // namespace
 
 std::string cost_text(const CostSceneReport& scene, int threads)
 {
-    std::string text = heading(scene, threads) + reference(scene.reference) + "\n" + slopes(scene) +
-                       errors(scene) + gains(scene) + times(scene);
+    std::string text = heading(scene, threads) + reference(scene.reference) +
+                       definition(scene.epsilon) + "\n" + slopes(scene) + errors(scene) +
+                       gains(scene) + times(scene);
     const std::vector<std::string> sentences = sentences_of(scene);
     if (!sentences.empty()) text += "\n";
     for (const std::string& sentence : sentences) text += wrapped(sentence);
