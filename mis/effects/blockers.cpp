@@ -79,8 +79,7 @@ const Blockers::Words* Blockers::make(std::size_t place) const
 {
     std::array<ListedLight, most_lights + LightList::group> found;  // NOLINT: as far as it is read
     std::array<Words, most_in_a_list> lights, beams;                // NOLINT
-    const std::size_t candidates = BeamTests::best.meet(
-        beam_from(parts_.around(), place), *spheres_, spheres_->all(), 1, found.data());
+    const std::size_t candidates = spheres_->meet(beam_from(parts_.around(), place), found.data());
     Beams from;
     for (std::size_t k = 0; k < parts_.balls().size(); ++k)
         from.set(k, beam_from(parts_.balls()[k], place));

@@ -39,12 +39,14 @@ public:
         : bsdf_(&bsdf), frame_(frame_around(Vec3<T>{T(point.n.x), T(point.n.y), T(point.n.z)})),
           wo_{T(point.wo.x), T(point.wo.y), T(point.wo.z)}
     {
+        using std::sqrt;
         const LobeExtent lobe = bsdf.lobe();
-        extent_ = max_of(T(number<T>(4 * lobe.half_solid_angle) * wo_.z), number<T>(1e-30));
+        const T wide = number<T>(lobe.half_solid_angle / (2 * pi<double>));
+        extent_ = max_of(T(number<T>(4 * lobe.half_solid_angle) * sqrt(square(wo_.z) + wide)),
+                         number<T>(1e-30));
         diffuse_ = number<T>(lobe.diffuse);
         flat_ = number<T>(lobe.diffuse + defensive * lobe.specular);
-        peak_ = lobe_at(Vec3<T>{-wo_.x, -wo_.y, wo_.z});
-        using std::sqrt;
+        peak_ = lobe_at(Vec3<T>{-wo_.x, -wo_.y, max_of(wo_.z, number<T>(1e-4))});
         lobe_reach_ = number<T>(4) * sqrt(extent_ * number<T>(0.5 / pi<double>));
     }
 
@@ -96,10 +98,11 @@ private:
     /// And what of their worth that puts in doubt.
     static constexpr double outlying_doubt = 0.3;
 
-    /// Luminance of the lobe alone.
+    /// Luminance of the lobe alone; finite where a float's range ends, too.
     MIS_INLINE T lobe_at(const Vec3<T>& wi) const
     {
-        return max_of(T(luminance(bsdf_->evaluate(wo_, wi).f) - diffuse_), number<T>(0));
+        const T lobe = luminance(bsdf_->evaluate(wo_, wi).f) - diffuse_;
+        return min_of(max_of(lobe, number<T>(0)), number<T>(1e20));
     }
 
     /// The direction of the cap that is nearest to the mirror direction of wo; at the horizon where

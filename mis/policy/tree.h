@@ -25,7 +25,7 @@ public:
     /// Of them so many at once, so that none waits for what is found in another.
     static constexpr std::size_t open_at_once = 3;
     /// No part is opened whose doubt is less than this share of all weights.
-    static constexpr double least_doubt = 0.003;
+    static constexpr double least_doubt = 0.0003;
     static constexpr std::size_t table_bytes(std::size_t)
     {
         return Scratch::bytes_for<TreePoint<double>>(1) +

@@ -58,10 +58,10 @@ MIS_INLINE bool sum_up(LightTree::Row<double>& weights)
         Quarters::raise_to(some, least);
         some = counts ? some : none;
     }
-    // Within each quarter: by neighbours, then by pairs; then those before it.
+    // Pairs, then quarters, then all: sums never fall, and stay where a weight is 0.
     for (Quarters::Lanes& some : quarters.of) {
-        some += __builtin_shufflevector(some, none, 4, 0, 1, 2);
-        some += __builtin_shufflevector(some, none, 4, 4, 0, 1);
+        some += __builtin_shufflevector(some, none, 4, 0, 4, 2);
+        some += __builtin_shufflevector(some, none, 4, 4, 1, 1);
     }
     for (std::size_t q = 1; q < quarters.of.size(); ++q)
         quarters.of[q] += quarters.of[q - 1][quarter - 1];

@@ -117,7 +117,9 @@ MIS_OWN_COPY void weigh_parts(const Reflection& reflection, const TreePoint<Scal
         const T root = sqrt(height * height + variance);
         const T rise = number<T>(0.5) * select(height > zero, T(height + root),
                                                T(variance / max_of(T(root - height), least)));
-        const T cos_theta = max_of(T(rise * inverse), number<T>(1e-6));
+        // Of a thin layer around the point, few lights are near, but high, and all that counts.
+        const T least_cos = select(d <= reach, number<T>(0.5), number<T>(1e-6));
+        const T cos_theta = max_of(T(rise * inverse), least_cos);
         const auto is_above = height + reach > -rounding * (d + from_origin);
         const T irradiance =
             power * inverse * (select(is_above, T(T(pi<T>) * cos_theta), zero) * inverse);
@@ -134,10 +136,15 @@ MIS_OWN_COPY void weigh_parts(const Reflection& reflection, const TreePoint<Scal
                           reflected.lobe * (uneven + reflected.lobe_variance) + reflected.unsure);
         const auto is_even =
             doubt <= least_even * weight && d > number<T>(2) * reach && height > reach;
-        // Nearly all of the power is far away, as a sun's, but other lights may be near.
-        const T first = select(d2 > number<T>(100) * spread2, T(doubt * number<T>(1e12)), doubt);
-        store_lanes(&doubts[k],
-                    T(select(is_even, zero, T(select(d <= number<T>(2) * reach, first, doubt)))));
+        // Amid the lights of a part, some may be far nearer than their mean square says. Such parts
+        // come before all others; first those most of whose power stands apart from the rest, as a
+        // sun's does amid lamps, the widest first.
+        const auto is_amid = d <= reach && irradiance > zero;
+        const auto may_be_near = d <= number<T>(2) * reach && d2 > number<T>(100) * spread2;
+        const T near_first = select(may_be_near || is_amid, T(doubt * number<T>(1e12)), doubt);
+        const T first = select(is_amid && spread2 < number<T>(0.1) * (reach * reach),
+                               T(reach * number<T>(1e30)), near_first);
+        store_lanes(&doubts[k], T(select(is_even, zero, first)));
     }
     for (std::size_t k = 0; k < LightTree::width; ++k) weights[k] = static_cast<double>(found[k]);
 }

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace mis {
@@ -31,17 +33,25 @@ class LightList;
 
 /// The lights' spheres as beams see them.
 struct FloatSpheres {
-    /// origin: amid the lights. At most 65536 lights.
-    FloatSpheres(const Lights& lights, const Vec3<double>& origin);
+    /// origin: amid the lights. At most 65536 lights. order: of all of them, such that neighbours
+    /// stand together; empty: as they are listed.
+    FloatSpheres(const Lights& lights, const Vec3<double>& origin,
+                 std::span<const LightIndex> order = {});
     /// All lights, in beam 0.
     LightList all() const;
+    /// Those that the beam could meet → found, which has room for all and a group more; how many.
+    std::size_t meet(const Beam& beam, ListedLight* found) const;
 
     Vec3<double> origin;  ///< scene units; of all that follows
     /// [light]: its centre, and its radius with room for rounding; padded to a multiple of eight.
     std::vector<std::array<float, 4>> sphere;
 
 private:
+    /// Balls around the groups of all_, eight of them a group of their own.
+    explicit FloatSpheres(const FloatSpheres& fine);
+
     std::vector<std::uint16_t> all_;
+    std::shared_ptr<const FloatSpheres> groups_;  ///< of a few lights: null
 };
 
 /// All balls whose centres run along a line and whose radii grow or shrink evenly: a ray, the

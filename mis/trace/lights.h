@@ -104,6 +104,9 @@ public:
         walked(Along<Visit>{x, wi, &visit});
     }
 
+    /// All lights, such that neighbours stand together.
+    std::span<const LightIndex> order() const { return {order_.data(), order_.size()}; }
+
     /// Amid the lights; scene units.
     const Vec3<double>& origin() const { return origin_; }
 

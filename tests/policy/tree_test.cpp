@@ -84,7 +84,7 @@ TEST(TreePolicy, OfSomeHundredLightsIsProduct)
     }
 }
 
-/// 20 000 lights at which 24 groups are looked into: 0.01 to 0.12 are measured, the most at sharp
+/// 20 000 lights at which 24 groups are looked into: 0.01 to 0.2 are measured, the most at sharp
 /// lobes.
 TEST(TreePolicy, OfManyLightsHasLittleMoreVarianceThanProduct)
 {
@@ -93,7 +93,106 @@ TEST(TreePolicy, OfManyLightsHasLittleMoreVarianceThanProduct)
         const double found = excess(table_of<ProductPolicy>(lights, s.view).probabilities(),
                                     table_of<TreePolicy>(lights, s.view).probabilities());
         EXPECT_GT(found, 0) << s.what;
-        EXPECT_LT(found, 0.15) << s.what;
+        EXPECT_LT(found, 0.25) << s.what;
+    }
+}
+
+/// Excess at some places of the plane y = 0, not farther than `reach` from the middle, seen from
+/// above: the largest.
+double worst_excess(const Lights& lights, double reach, const AnyBsdf& bsdf)
+{
+    Uniforms u(5);
+    const Vec3<double> up{0, 1, 0};
+    double worst = 0;
+    for (int i = 0; i < 12; ++i) {
+        const Vec3<double> at{u.between(-reach, reach), 0, u.between(-reach, reach)},
+            to_viewer = normalized(Vec3<double>{u.between(-1, 1), 1, u.between(-1, 1)});
+        const Prepared<ProductPolicy> exact(lights, at, up, at, to_viewer, bsdf);
+        const Prepared<TreePolicy> found(lights, at, up, at, to_viewer, bsdf);
+        worst = std::max(worst, excess(exact.probabilities(), found.probabilities()));
+    }
+    return worst;
+}
+
+Lights lamps_over_a_plain(int count, double half_width)
+{
+    Uniforms u(3);
+    Lights lights;
+    for (int j = 0; j < count; ++j)
+        lights.push_back(make_light_of_power({u.between(-half_width, half_width), u.between(2, 4),
+                                              u.between(-half_width, half_width)},
+                                             1e-3, Vec3<double>(u.log_between(1, 100))));
+    return lights;
+}
+
+/// A few lamps far away stand in groups with near ones, which are far nearer than such a group's
+/// mean square distance: up to 7e8 where nothing looks into it.
+TEST(TreePolicy, FarLampsDoNotHideTheNearOnesOfTheirGroups)
+{
+    Uniforms u(4);
+    Lights lights = lamps_over_a_plain(1'000, 10);
+    for (int j = 0; j < 10; ++j) {
+        const double d = u.log_between(1e3, 1e4), azimuth = u.between(0, 6.28);
+        lights.push_back(make_light_of_power(
+            {d * std::cos(azimuth), 0.3 * d, d * std::sin(azimuth)}, 0.01, Vec3<double>(50)));
+    }
+    for (const Surface& s : surfaces()) EXPECT_LT(worst_excess(lights, 8, s.view), 0.1) << s.what;
+}
+
+/// Lamps at all distances up to a thousand times the nearest.
+TEST(TreePolicy, OfLampsAtAllDistancesHasLittleMoreVarianceThanProduct)
+{
+    Uniforms u(6);
+    Lights lights;
+    for (int j = 0; j < 3'000; ++j) {
+        const double d = u.log_between(1, 1e3), z = u.between(0.02, 1),
+                     azimuth = u.between(0, 6.28), s = std::sqrt(1 - z * z);
+        lights.push_back(
+            make_light_of_power({d * s * std::cos(azimuth), d * z, d * s * std::sin(azimuth)},
+                                1e-3 * d, Vec3<double>(u.log_between(1, 100))));
+    }
+    EXPECT_LT(worst_excess(lights, 0.5, {}), 0.2);
+}
+
+/// Of a layer of lamps around the point, much of the light comes from groups whose mean place is at
+/// the horizon.
+TEST(TreePolicy, OfASparsePlainHasLittleMoreVarianceThanProduct)
+{
+    EXPECT_LT(worst_excess(lamps_over_a_plain(1'000, 100), 80, {}), 0.02);
+    EXPECT_LT(worst_excess(lamps_over_a_plain(30'000, 500), 400, {}), 0.05);
+}
+
+/// A view along the surface, where a lobe's peak is beyond what a float can hold.
+TEST(TreePolicy, DrawsALightHoweverGrazingTheViewIs)
+{
+    const Surface sharp("ggx", 0, 1e-9);
+    const Lights lights = lights_around(2'000);
+    for (const double cosine : {1e-3, 1e-13, 1e-20}) {
+        const Vec3<double> grazing =
+            normalized(cross(n, Vec3<double>{0, 0, 1})) * std::sqrt(1 - cosine * cosine) +
+            n * cosine;
+        const Prepared<TreePolicy, float> in_float(lights, x, n, x, grazing, sharp.view);
+        const Prepared<TreePolicy> in_double(lights, x, n, x, grazing, sharp.view);
+        EXPECT_NEAR(in_float.sum(), 1, 1e-3) << cosine;
+        EXPECT_NEAR(in_double.sum(), 1, 1e-9) << cosine;
+    }
+}
+
+/// So that a light of weight 0 has probability 0, to the bit.
+TEST(TreePolicy, SumsOfAGroupNeverFallAndStayWhereTheWeightIs0)
+{
+    Uniforms u(8);
+    for (int i = 0; i < 20'000; ++i) {
+        LightTree::Row<double> weights{};
+        for (double& w : weights) w = u.between(0, 1) < 0.4 ? 0 : u.log_between(1e-9, 1);
+        LightTree::Row<double> sums = weights;
+        const bool is_any = sum_up(sums);
+        ASSERT_EQ(is_any, sums.back() > 0);
+        for (std::size_t k = 0; k < weights.size(); ++k) {
+            const double before = k > 0 ? sums[k - 1] : 0;
+            if (weights[k] == 0) ASSERT_EQ(sums[k], before) << i << " " << k;
+            else ASSERT_GT(sums[k], before) << i << " " << k;
+        }
     }
 }
 
