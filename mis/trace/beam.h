@@ -30,6 +30,7 @@ inline double rounding_of(const Vec3<double>& p)
 }
 
 class LightList;
+struct Beam;
 
 /// The lights' spheres as beams see them.
 struct FloatSpheres {
