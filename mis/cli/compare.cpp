@@ -122,6 +122,9 @@ int run_compare(const CompareOptions& options)
         const ReadyScene ready(file, options.run);
         check_memory(ready.scene, selection.strategies.size(), !options.out.empty());
         report.threads = ready.executor.threads;
+        if (options.stop.spp)
+            ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
+                                     static_cast<double>(selection.strategies.size()));
         const Study study = run_study(ready.lit, selection.strategies,
                                       study_options(options, progress), ready.executor);
         progress.clear();

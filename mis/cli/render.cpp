@@ -234,7 +234,9 @@ Outcome render_by(const Strategy& strategy, const ReadyScene& ready, const Rende
                                         {options.run.seed, is_sobol ? one_scrambling : 0});
     const StopOptions& stop = options.stop;
     if (stop.seconds || stop.error) return render_until(ready, prepared, stop, is_sobol, progress);
-    return render_spp(ready, prepared, static_cast<std::uint64_t>(stop.spp.value_or(64)), progress);
+    const auto spp = static_cast<std::uint64_t>(stop.spp.value_or(64));
+    ready.lit.expect_samples(static_cast<double>(spp));
+    return render_spp(ready, prepared, spp, progress);
 }
 
 /// strategy: none where it is exact.

@@ -17,7 +17,25 @@ std::size_t bytes_of(const std::uint16_t* list)
     return LightList(list).words() * sizeof(std::uint16_t);
 }
 
+/// Directions that are drawn are above a horizon.
+constexpr double cells_in_use = 0.5 * DirectionCells::count;
+
+/// Expected ones, of the points' light or BSDF halves; 0: not known.
+double draws_of_tile(const ListBudget& budget, std::span<const ShadingPoint> points)
+{
+    return budget.expected_samples() * static_cast<double>(points.size());
+}
+
 }  // namespace
+
+std::uintptr_t ListPatience::of(std::size_t lights, double expected_draws)
+{
+    const double enough = worth(lights);
+    if (expected_draws <= 0) return static_cast<std::uintptr_t>(enough);
+    if (expected_draws < 0.25 * enough) return never;
+    if (expected_draws < 1.25 * enough) return static_cast<std::uintptr_t>(2 * enough);
+    return few;
+}
 
 std::shared_ptr<const Blockers> Blockers::of(std::shared_ptr<const FloatSpheres> spheres,
                                              const Lights& lights,
@@ -25,6 +43,11 @@ std::shared_ptr<const Blockers> Blockers::of(std::shared_ptr<const FloatSpheres>
                                              std::shared_ptr<ListBudget> budget)
 {
     const std::size_t places = places_of(lights.size());
+    const double draws = draws_of_tile(*budget, points);
+    if (ListPatience::of(lights.size(), draws / static_cast<double>(lights.size())) ==
+            ListPatience::never &&
+        ListPatience::of(lights.size(), draws / cells_in_use) == ListPatience::never)
+        return nullptr;
     if (lights.size() > most_lights || !budget->take(places * sizeof(lists_[0]))) return nullptr;
     return std::shared_ptr<const Blockers>(
         new Blockers(std::move(spheres), lights, points, std::move(budget)));
@@ -33,6 +56,10 @@ std::shared_ptr<const Blockers> Blockers::of(std::shared_ptr<const FloatSpheres>
 Blockers::Blockers(std::shared_ptr<const FloatSpheres> spheres, const Lights& lights,
                    std::span<const ShadingPoint> points, std::shared_ptr<ListBudget> budget)
     : spheres_(std::move(spheres)), lights_(&lights), parts_(points), budget_(std::move(budget)),
+      patience_before_(ListPatience::of(
+          lights.size(), draws_of_tile(*budget_, points) / static_cast<double>(lights.size()))),
+      patience_along_(
+          ListPatience::of(lights.size(), draws_of_tile(*budget_, points) / cells_in_use)),
       lists_(places_of(lights.size()))
 {
 }
@@ -41,9 +68,7 @@ Blockers::~Blockers()
 {
     for (const auto& place : lists_) {
         const Words* list = place.load(std::memory_order_relaxed);
-        if (reinterpret_cast<std::uintptr_t>(list) <= patience || list == too_long.data() ||
-            list == none.data())
-            continue;
+        if (is_count(list) || list == too_long.data() || list == none.data()) continue;
         budget_->give(bytes_of(list));
         delete[] list;
     }
@@ -102,7 +127,7 @@ const Blockers::Words* Blockers::make(std::size_t place) const
         list = made;
     }
     const Words* before = lists_[place].load(std::memory_order_acquire);
-    while (reinterpret_cast<std::uintptr_t>(before) <= patience)
+    while (is_count(before))
         if (lists_[place].compare_exchange_weak(before, list, std::memory_order_acq_rel))
             return list;
     if (list != too_long.data() && list != none.data()) {  // another thread was quicker

@@ -14,9 +14,13 @@
 
 namespace mis {
 
-/// Bytes that may still be spent on lists; many threads ask.
+/// What may be spent on lists, and what they are expected to be asked; many threads ask.
 class ListBudget {
 public:
+    /// Samples that a shading point is going to take in all, of all strategies; 0: not known.
+    void expect_samples(double of_point) { samples_.store(of_point, std::memory_order_relaxed); }
+    double expected_samples() const { return samples_.load(std::memory_order_relaxed); }
+
     /// So many in all.
     explicit ListBudget(std::size_t bytes) : left_(static_cast<std::ptrdiff_t>(bytes)) {}
     /// Takes some, or nothing where there are fewer left.
@@ -35,6 +39,19 @@ public:
 
 private:
     std::atomic<std::ptrdiff_t> left_;
+    std::atomic<double> samples_ = 0;
+};
+
+/// How many draws are left to the hierarchy before a list is made for them, where a list takes as
+/// long to make as it saves in `worth()` draws. Of expected draws, that a list is asked by each on
+/// average: enough of them, and only the first few are left to it; too few, and lists wait for what
+/// is asked far more often than others, or are not made at all. Where nothing is expected, a list
+/// is made once its draws would have paid for it, which is at most twice too dear whatever comes
+/// (Karlin et al. 1988, "Competitive snoopy caching").
+struct ListPatience {
+    static constexpr std::uintptr_t few = 3, never = ~std::uintptr_t{0};
+    static double worth(std::size_t lights) { return 8 + static_cast<double>(lights) / 64; }
+    static std::uintptr_t of(std::size_t lights, double expected_draws);
 };
 
 /// For the points of one tile: which lights could stand before another one at all, and which could
@@ -49,11 +66,9 @@ public:
     static constexpr std::size_t most_bytes = std::size_t{128} << 20;
     /// Of so few lights no lists by direction are kept: to look at them all is as quick.
     static constexpr std::size_t few_lights = 32;
-    /// Of many draws, so many are left to the hierarchy before a list is made: that takes as long.
-    static constexpr std::uintptr_t patience = 3;
-
     /// points: of the tile, at least one. spheres: of the lights. lights: kept by reference, as
-    /// they are. Null where there are too many lights, or the budget is spent.
+    /// they are. Null where there are too many lights, the budget is spent, or too little is going
+    /// to be asked.
     static std::shared_ptr<const Blockers> of(std::shared_ptr<const FloatSpheres> spheres,
                                               const Lights& lights,
                                               std::span<const ShadingPoint> points,
@@ -64,6 +79,10 @@ public:
 
     const TileParts& parts() const { return parts_; }
     const FloatSpheres& spheres() const { return *spheres_; }
+
+    /// Draws of each light, and of each cell of directions, before a list is made for them.
+    std::uintptr_t patience_before() const { return patience_before_; }
+    std::uintptr_t patience_along() const { return patience_along_; }
 
     /// Every light that may stand between a point of the tile and light j; nothing where no list
     /// is kept, and the hierarchy is to be asked.
@@ -77,11 +96,11 @@ public:
     /// The same for one of many draws: the first few of them get nothing.
     std::optional<LightList> often_before(LightIndex j) const
     {
-        return kept(static_cast<std::size_t>(j), patience);
+        return kept(static_cast<std::size_t>(j), patience_before_);
     }
     std::optional<LightList> often_along(const Vec3<float>& wi) const
     {
-        return kept(place_of(wi), patience);
+        return kept(place_of(wi), patience_along_);
     }
 
 private:
@@ -101,8 +120,8 @@ private:
     {
         if (place >= lists_.size()) return std::nullopt;
         const Words* list = lists_[place].load(std::memory_order_acquire);
-        if (reinterpret_cast<std::uintptr_t>(list) <= patience) {
-            if (waits(place, list, asks)) return std::nullopt;
+        if (is_count(list)) {
+            if (asks == ListPatience::never || waits(place, list, asks)) return std::nullopt;
             list = make(place);
         }
         if (list == too_long.data()) return std::nullopt;
@@ -110,6 +129,12 @@ private:
     }
 
     using Words = std::uint16_t;
+    /// Is it how often it was asked for, and no list?
+    static bool is_count(const Words* list)
+    {
+        constexpr std::uintptr_t most = 4096;  // below any address
+        return reinterpret_cast<std::uintptr_t>(list) < most;
+    }
     bool waits(std::size_t place, const Words* list, std::uintptr_t asks) const;
     const Words* make(std::size_t place) const;
     Beam beam_from(const BoundingBall& ball, std::size_t place) const;
@@ -119,7 +144,8 @@ private:
     const Lights* lights_;
     TileParts parts_;
     std::shared_ptr<ListBudget> budget_;
-    /// A list; or how often it was asked for, up to `patience`, while it was not made.
+    std::uintptr_t patience_before_, patience_along_;
+    /// A list; or how often it was asked for while it was not made.
     mutable std::vector<std::atomic<const Words*>> lists_;
 };
 

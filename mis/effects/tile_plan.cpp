@@ -77,7 +77,8 @@ TilePlanner::TilePlanner(const Scene& scene, const LightHierarchy& hierarchy,
         bodies_.push_back(std::move(body));
     }
     if (scene.lights.size() <= Blockers::most_lights)
-        spheres_ = std::make_shared<FloatSpheres>(scene.lights, hierarchy.origin(), hierarchy.order());
+        spheres_ =
+            std::make_shared<FloatSpheres>(scene.lights, hierarchy.origin(), hierarchy.order());
     for (const Light& light : scene.lights)
         lights_center_ += light.center / static_cast<double>(scene.lights.size());
     for (const Light& light : scene.lights)

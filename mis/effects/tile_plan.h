@@ -42,6 +42,9 @@ public:
     /// What a tile of these points calls for. points: at least one.
     TilePlan plan(std::span<const ShadingPoint> points) const;
 
+    /// So many samples are to come of every point, of all strategies; of plans that are made then.
+    void expect_samples(double of_point) const { budget_->expect_samples(of_point); }
+
 private:
     /// A surface as the proofs see it: the hull of some corners, or a ball.
     struct Body {

@@ -30,6 +30,9 @@ public:
     const LightHierarchy& lights() const { return hierarchy_; }
     /// Who answers shadow rays; nullptr where there are no surfaces.
     const SurfaceTracer* surfaces() const { return surfaces_; }
+    /// So many samples are to come of every point, of all strategies, which says what pays to be
+    /// prepared; before plan().
+    void expect_samples(double of_point) const { planner_.expect_samples(of_point); }
     /// Finds out what each tile calls for, where that is asked for.
     void plan(GBuffer& buffer, const AnyExecutor& executor) const
     {

@@ -218,19 +218,47 @@ TEST(Blockers, OfLightsThatAreTooSmallAreFoundOut)
 }
 
 /// A list pays when it is asked for often: until then the hierarchy does as well.
-TEST(Blockers, AreMadeForTheFourthDraw)
+TEST(Blockers, AreMadeOnceTheyWouldHavePaid)
 {
     Uniforms uniforms(88);
     const Lights lights = lights_over_a_floor(60, uniforms);
     const auto blockers = blockers_of(lights, points_around(0.1, uniforms));
     const Vec3<float> up(0, 1, 0);
-    for (std::uintptr_t i = 0; i < Blockers::patience; ++i) {
+    EXPECT_EQ(blockers->patience_before(),
+              static_cast<std::uintptr_t>(ListPatience::worth(lights.size())));
+    for (std::uintptr_t i = 0; i < blockers->patience_before(); ++i) {
         EXPECT_FALSE(blockers->often_before(3));
         EXPECT_FALSE(blockers->often_along(up));
     }
     EXPECT_TRUE(blockers->often_before(3));
     EXPECT_TRUE(blockers->often_along(up));
     EXPECT_TRUE(blockers->before(4));  // at once
+}
+
+/// Where it is known how much will be asked, no list is made that cannot pay.
+TEST(Blockers, AreMadeSoonOrNeverWhereItIsKnownWhatComes)
+{
+    for (const std::size_t lights : {33U, 1000U, 4096U}) {
+        const double worth = ListPatience::worth(lights);
+        EXPECT_EQ(ListPatience::of(lights, 2 * worth), ListPatience::few);
+        EXPECT_GE(ListPatience::of(lights, worth), static_cast<std::uintptr_t>(1.5 * worth));
+        EXPECT_EQ(ListPatience::of(lights, 0.1 * worth), ListPatience::never);
+    }
+    Uniforms uniforms(88);
+    const Lights lights = lights_over_a_floor(60, uniforms);
+    const std::vector<ShadingPoint> points = points_around(0.1, uniforms);
+    const auto with = [&](double samples) {
+        const LightHierarchy hierarchy(lights);
+        auto budget = std::make_shared<ListBudget>(Blockers::most_bytes);
+        budget->expect_samples(samples);
+        return Blockers::of(std::make_shared<FloatSpheres>(lights, hierarchy.origin()), lights,
+                            points, budget);
+    };
+    const double points_here = static_cast<double>(points.size());
+    EXPECT_FALSE(with(1 / points_here));
+    ASSERT_TRUE(with(1e5));
+    EXPECT_EQ(with(1e5)->patience_before(), ListPatience::few);
+    EXPECT_EQ(with(1e5)->patience_along(), ListPatience::few);
 }
 
 TEST(Blockers, OfLightsSideBySideAreNone)
