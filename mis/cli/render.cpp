@@ -102,6 +102,7 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
         Band band = find_band(ready.lit, row, std::min(band_rows, height - row), ready.executor);
         const ExactShare here = exact_share(ready.lit, band.shading);
         share.exact += here.exact, share.points += here.points;
+        share.exact_tiles += here.exact_tiles, share.tiles += here.tiles;
         if (share.is_all()) {
             light_exactly(ready.lit, band, ready.executor);
             draw_band(ready.lit, band, outcome.image);
@@ -112,10 +113,11 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     }
     if (!share.is_all())
         throw UsageError(fmt::format(
-            "--strategy exact: {} of the {} shading points of {} have a closed form, and all "
-            "must: Lambertian surfaces, no surface and no other light before any light\n"
+            "--strategy exact: {} of the {} shading points of {} have a closed form ({} of {} "
+            "tiles), and all must: surfaces without a lobe, and no surface and no other light that "
+            "may stand before any light; `mis explain` says why one may\n"
             "    `mis predict` has exact values of probes on any material.",
-            share.exact, share.points, ready.scene.file));
+            share.exact, share.points, ready.scene.file, share.exact_tiles, share.tiles));
     outcome.shading_points = share.points;
     return outcome;
 }

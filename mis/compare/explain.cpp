@@ -77,6 +77,12 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
         count_points(found, lit, probes, sums);
         some = spread_tiles(probes, most_tiles_of_savings);
     }
+    if (scene.camera && !scene.probes.empty()) {  // they call for effects, too
+        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces());
+        lit.plan(probes, executor);
+        sums.add(lit.tiles_that_call(probes));
+        found.tiles += probes.tiles.size();
+    }
     found.probes = scene.probes.size();
     found.effects = explained(scene, lit.effects(), sums.of(found.tiles));
     measure_savings(lit, some, found.effects);

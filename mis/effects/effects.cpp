@@ -50,11 +50,20 @@ EffectPlan plan(const std::string& name, bool on, double share, const std::strin
     return {name, true, share, somewhere};
 }
 
+std::vector<EffectPlan> nothing_left_out()
+{
+    std::vector<EffectPlan> all;
+    for (const char* name : effect_names)
+        all.push_back({name, true, 1, "nothing is left out (--effects all)"});
+    return all;
+}
+
 }  // namespace
 
 std::vector<EffectPlan> explained(const Scene& scene, const Effects& effects,
                                   const EffectShares& shares)
 {
+    if (!effects.by_tile) return nothing_left_out();
     const std::string elsewhere =
         shares.shadows < 1 ? "; elsewhere a plane parts every surface from all that lies between"
                            : "";

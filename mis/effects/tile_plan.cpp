@@ -103,7 +103,9 @@ TilePlanner::TileBounds TilePlanner::bounds_of(std::span<const ShadingPoint> poi
 {
     TileBounds tile{points[0].x, points[0].x, Vec3<double>(0), 0, 0, 0, {}};
     for (const ShadingPoint& point : points) {
-        const Vec3<double> origin = vec_cast<double>(point.ray_origin) + frame_;
+        // Without surfaces there are no rays.
+        const Vec3<double> origin =
+            bodies_.empty() ? point.x : vec_cast<double>(point.ray_origin) + frame_;
         tile.low = min(tile.low, min(point.x, origin));
         tile.high = max(tile.high, max(point.x, origin));
         tile.normal += vec_cast<double>(point.n);
@@ -150,6 +152,20 @@ bool TilePlanner::are_lights_above(const TileBounds& tile) const
     });
 }
 
+/// Does no direction above the points' horizons come down to the quad, as of the floor that they
+/// lie on? Where their normals are its own, but for a tilt: a ray sinks by that at most times the
+/// way to the quad's far end.
+bool TilePlanner::stays_above(const TileBounds& tile, const Body& quad, const Heights& over)
+{
+    const double side = over.above > over.below ? 1 : -1, height = std::max(over.above, over.below);
+    const double off = length(tile.normal - quad.normal * side) + tile.spread;
+    constexpr double rounding = 1.2e-7;  // of n·wi; none along an axis
+    const double tilt = off > 0 ? off + rounding : 0;
+    const double way = length(quad.center - 0.5 * (tile.low + tile.high)) + quad.radius +
+                       0.5 * length(tile.high - tile.low);
+    return height - tilt * way > quad.clearance;
+}
+
 bool TilePlanner::is_unshadowed(const TileBounds& tile, const Shaft& shaft) const
 {
     const Vec3<double> middle = shaft.middle();
@@ -165,6 +181,7 @@ bool TilePlanner::is_unshadowed(const TileBounds& tile, const Shaft& shaft) cons
             const double nearest = std::abs(height) - shaft.radius;
             const double origins = height > 0 ? tile.over[b].above : tile.over[b].below;
             if (nearest > margin && origins > body.clearance) continue;
+            if (stays_above(tile, body, tile.over[b])) continue;
         }
         const bool is_clear = body.corners.empty()
                                   ? is_clear_of(shaft, body.center, body.radius, margin)
@@ -176,10 +193,13 @@ bool TilePlanner::is_unshadowed(const TileBounds& tile, const Shaft& shaft) cons
 
 bool TilePlanner::is_unhidden(const Shaft& shaft, std::size_t light) const
 {
-    const double size = shaft.box_radius() + length(shaft.middle()) + length(shaft.center);
+    const double far = length(shaft.center - shaft.middle()) + shaft.radius;
     for (std::size_t k = 0; k < scene_->lights.size(); ++k) {
         const Light& other = scene_->lights[k];
-        const double margin = 1e-9 * (length(other.center - shaft.middle()) + other.radius + size);
+        // What a direction in float may pass beside its light, where it passes the other one.
+        const double margin =
+            4e-6 * (length(other.center - shaft.middle()) + other.radius + shaft.box_radius()) +
+            1e-13 * far;
         if (k != light && !is_clear_of(shaft, other.center, other.radius, margin)) return false;
     }
     return true;

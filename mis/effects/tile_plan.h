@@ -64,6 +64,7 @@ private:
 
     TileBounds bounds_of(std::span<const ShadingPoint> points) const;
     Heights heights(const Body& quad, std::span<const ShadingPoint> points) const;
+    static bool stays_above(const TileBounds& tile, const Body& quad, const Heights& over);
     bool is_unshadowed(const TileBounds& tile, const Shaft& shaft) const;
     bool is_unhidden(const Shaft& shaft, std::size_t light) const;
     bool are_lights_above(const TileBounds& tile) const;

@@ -1,6 +1,5 @@
 #include "mis/engine/exact.h"
 
-#include "mis/bsdf/lambert.h"
 #include "mis/math/irradiance.h"
 
 #include <algorithm>
@@ -8,11 +7,6 @@
 namespace mis {
 
 namespace {
-
-const Material& material_of(const LitScene& scene, const Tile& tile)
-{
-    return scene.scene().materials[static_cast<std::size_t>(tile.material)];
-}
 
 /// Can no light stand before another one that is above the horizon?
 bool is_unhidden(const LitScene& scene, const TilePlan& plan)
@@ -32,7 +26,7 @@ bool is_unhidden(const LitScene& scene, const TilePlan& plan)
 
 bool has_closed_form(const LitScene& scene, const Tile& tile)
 {
-    return material_of(scene, tile).type == Lambert::name && !tile.plan.shadows &&
+    return is_diffuse(scene.bsdf(tile.material)) && !tile.plan.shadows &&
            is_unhidden(scene, tile.plan);
 }
 
@@ -46,14 +40,17 @@ Vec3<double> exact_radiance(const LitScene& scene, const Tile& tile, const Shadi
         const double over_sine = cap.sin_max * irradiance_over_sin2(tilted(cap, n));
         sum += vec_cast<double>(light.radiance_radius) / cap.distance * over_sine;
     }
-    return sum * Lambert(material_of(scene, tile)).evaluate<double>(up, up).f;
+    Vec3<double> f(0);
+    scene.bsdf(tile.material).visit([&](const auto& bsdf) { f = bsdf.evaluate(up, up).f; });
+    return sum * f;
 }
 
 ExactShare exact_share(const LitScene& scene, const GBuffer& shading)
 {
     ExactShare share{shading.dark.size(), shading.dark.size() + shading.points.size()};
+    share.tiles = shading.tiles.size();
     for (const Tile& tile : shading.tiles)
-        if (has_closed_form(scene, tile)) share.exact += tile.count;
+        if (has_closed_form(scene, tile)) share.exact += tile.count, ++share.exact_tiles;
     return share;
 }
 

@@ -14,7 +14,7 @@ Vec3<double> exact_radiance(const LitScene& scene, const Tile& tile, const Shadi
 
 /// Of some points, how many stand in tiles that have a closed form; dark points are 0, and count.
 struct ExactShare {
-    std::size_t exact = 0, points = 0;
+    std::size_t exact = 0, points = 0, exact_tiles = 0, tiles = 0;
     bool is_all() const { return exact == points; }
 };
 ExactShare exact_share(const LitScene& scene, const GBuffer& shading);
