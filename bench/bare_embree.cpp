@@ -162,7 +162,7 @@ std::size_t in_streams(RTCScene tree, std::span<const ShadowRay> all)
 std::vector<std::string_view> BareEmbree::calls()
 {
 #if MIS_EMBREE_MAJOR < 4
-    return {"single", "packet4", "packet8", "packet16", "stream"};
+    return {"single", "packet4", "packet8", "packet16", "packet16-coherent", "stream"};
 #else
     return {"single", "packet4", "packet8", "packet16"};
 #endif
@@ -182,6 +182,11 @@ std::size_t BareEmbree::hidden(std::string_view call, std::span<const ShadowRay>
         return in_packets<16, RTCRay16>(all,
                                         [&](auto& valid, RTCRay16& rays) { MIS_BENCH_PACKET(16); });
 #if MIS_EMBREE_MAJOR < 4
+    if (call == "packet16-coherent") {
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        return in_packets<16, RTCRay16>(all,
+                                        [&](auto& valid, RTCRay16& rays) { MIS_BENCH_PACKET(16); });
+    }
     if (call == "stream") return in_streams(tree, all);
 #endif
     return one_by_one(tree, all);

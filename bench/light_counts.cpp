@@ -71,6 +71,13 @@ Bars light_count_bars(const Figures& figures)
                     figures.at(cloud_of(1'000'000), "ns_per_sample") /
                         figures.at(cloud_of(1'000), "ns_per_sample"),
                     Bar::Sense::report});
+    for (const std::size_t lights : counts)
+        bars.push_back(
+            {5, fmt::format("tree/power over uniform/power, {} lights", lights),
+             at("tree", lights, "ns_per_sample") / at("uniform", lights, "ns_per_sample"),
+             lights == counts.back() ? Bar::Sense::at_most : Bar::Sense::report, 2,
+             fmt::format("{:.0f} and {:.0f} ns", at("tree", lights, "ns_per_sample").median,
+                         at("uniform", lights, "ns_per_sample").median)});
     for (const PolicyStages<float>& policy : kernels<float>().policies) {
         if (!is_linear(policy) || policy.draws_every_light) continue;
         for (const std::size_t lights : {counts.front(), counts.back()})

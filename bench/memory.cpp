@@ -5,6 +5,7 @@
 #include "mis/engine/choices.h"
 #include "mis/engine/stopwatch.h"
 #include "mis/io/scene_json.h"
+#include "mis/policy/light_tree.h"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -106,10 +107,27 @@ void start(benchmark::State& state, const std::filesystem::path& file)
     state.counters["seconds"] = seconds;
 }
 
+/// The hierarchy of `tree`.
+void build_tree(benchmark::State& state, const Lights& lights)
+{
+    double seconds = 0;
+    for (auto _ : state) {
+        const auto from = std::chrono::steady_clock::now();
+        const LightTree tree(lights);
+        benchmark::DoNotOptimize(tree.bytes());
+        seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+    }
+    state.counters["seconds"] = seconds;
+}
+
 }  // namespace
 
 void add_memory()
 {
+    const auto lights = lazily<Lights>([] { return new Lights(random_scene(million).lights); });
+    benchmark::RegisterBenchmark("start/tree", [=](benchmark::State& state) {
+        build_tree(state, lights());
+    })->Iterations(1);
     benchmark::RegisterBenchmark("memory", measure_memory)->Iterations(1)->Repetitions(1);
     const auto folder = lazily<Folder>([] { return new Folder; });
     for (const bool is_table : {false, true}) {
@@ -137,6 +155,8 @@ Bars memory_bars(const Figures& figures)
                     figures.at("start/random", "seconds"), Bar::Sense::at_most, 1});
     bars.push_back({6, "seconds to start, 10^6 lights in a table",
                     figures.at("start/table", "seconds"), Bar::Sense::at_most, 1});
+    bars.push_back({6, "seconds by the wall to build tree, 10^6 lights",
+                    figures.at("start/tree", "seconds"), Bar::Sense::at_most, 1.5});
     return bars;
 }
 

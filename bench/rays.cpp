@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace mis::bench {
 
 namespace {
@@ -33,11 +36,30 @@ struct Replay {
     BareEmbree embree;
 };
 
+/// Of every batch of the engine, the rays by octant and then by azimuth: would that pay?
+std::vector<ShadowRay> grouped(std::vector<ShadowRay> rays)
+{
+    constexpr std::size_t batch = 256;
+    const auto key = [](const ShadowRay& ray) {
+        const Vec3<float>& d = ray.direction;
+        const int octant = (d.x < 0 ? 1 : 0) + (d.y < 0 ? 2 : 0) + (d.z < 0 ? 4 : 0);
+        return std::pair{octant, std::atan2(d.z, d.x)};
+    };
+    for (std::size_t first = 0; first < rays.size(); first += batch) {
+        const auto begin = rays.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end = rays.size() - first > batch ? begin + batch : rays.end();
+        std::sort(begin, end,
+                  [&](const ShadowRay& a, const ShadowRay& b) { return key(a) < key(b); });
+    }
+    return rays;
+}
+constexpr std::string_view call_of_grouped = "packet16";
+
 /// The recording from front to back, a part at a time.
-void run_replay(benchmark::State& state, const Replay& replay, std::string_view call)
+void run_replay(benchmark::State& state, const Replay& replay, std::string_view call,
+                std::span<const ShadowRay> all)
 {
     constexpr std::size_t part = 4096;
-    const std::span<const ShadowRay> all = replay.recording.rays;
     std::size_t first = 0, asked = 0;
     double seconds = 0;
     for (auto _ : state) {
@@ -94,8 +116,15 @@ void add_rays()
             const auto recorded = lazily<Replay>([=] { return new Replay(ready(), strategy); });
             for (const std::string_view call : BareEmbree::calls())
                 benchmark::RegisterBenchmark(
-                    replay(scene, strategy, call).c_str(),
-                    [=](benchmark::State& state) { run_replay(state, recorded(), call); });
+                    replay(scene, strategy, call).c_str(), [=](benchmark::State& state) {
+                        run_replay(state, recorded(), call, recorded().recording.rays);
+                    });
+            const auto sorted = lazily<std::vector<ShadowRay>>(
+                [=] { return new std::vector<ShadowRay>(grouped(recorded().recording.rays)); });
+            benchmark::RegisterBenchmark(
+                replay(scene, strategy, "grouped").c_str(), [=](benchmark::State& state) {
+                    run_replay(state, recorded(), call_of_grouped, sorted());
+                });
             benchmark::RegisterBenchmark(
                 replay(scene, strategy, "answers").c_str(),
                 [=](benchmark::State& state) { compare_answers(state, recorded()); })
@@ -124,6 +153,14 @@ Bars ray_bars(const Figures& figures)
                  fmt::format("{:.0f} of {:.0f} ns; {:.2f} rays of {:.0f} ns ({})", ns.median,
                              budget.median, rays.median, ns_per_ray.median, call)});
         }
+    for (const std::string& scene : scenes) {
+        std::vector<std::string_view> calls = BareEmbree::calls();
+        calls.push_back("grouped");
+        for (const std::string_view call : calls)
+            bars.push_back({2, fmt::format("bare Embree, ns per ray, {}, {}", scene, call),
+                            figures.at(replay(scene, strategies.front(), call), "ns_per_ray"),
+                            Bar::Sense::report});
+    }
     return bars;
 }
 

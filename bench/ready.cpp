@@ -24,6 +24,7 @@ Ready::Ready(Scene made, Effect effect)
       shading(find_shading_points(scene, lit.lights(), tracer.get(), 0, scene.camera->resolution[1],
                                   any_executor(SerialExecutor{})))
 {
+    lit.expect_samples(samples_of_long_run);
     lit.plan(shading, any_executor(SerialExecutor{}));
 }
 

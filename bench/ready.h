@@ -47,6 +47,9 @@ LazyReady ready_lazily(std::function<Scene()> scene, Effect effect = Effect::cal
 /// Samples per shading point: what is prepared once is shared by so many.
 inline constexpr int samples_per_point = 16;
 
+/// What is run over and over is a part of a long run, as scenes are told.
+inline constexpr double samples_of_long_run = 1e4;
+
 /// What of a scene is run.
 struct Part {
     int material = -1;                           ///< of the tiles; −1: all

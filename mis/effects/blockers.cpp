@@ -32,8 +32,8 @@ std::uintptr_t ListPatience::of(std::size_t lights, double expected_draws)
 {
     const double enough = worth(lights);
     if (expected_draws <= 0) return static_cast<std::uintptr_t>(enough);
-    if (expected_draws < 0.6 * enough) return never;
-    if (expected_draws < 1.25 * enough) return static_cast<std::uintptr_t>(2 * enough);
+    if (expected_draws < 1.5 * enough) return never;
+    if (expected_draws < 2 * enough) return static_cast<std::uintptr_t>(2 * enough);
     return few;
 }
 

@@ -68,6 +68,7 @@ private:
     bool is_unshadowed(const TileBounds& tile, const Shaft& shaft) const;
     bool is_unhidden(const Shaft& shaft, std::size_t light) const;
     bool are_lights_above(const TileBounds& tile) const;
+    bool pays_to_prove_each(std::size_t points) const;
     void prove_all_at_once(const TileBounds& tile, TilePlan& plan) const;
     void prove_each(const TileBounds& tile, TilePlan& plan) const;
 
