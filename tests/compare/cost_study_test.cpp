@@ -5,6 +5,7 @@
 #include "mis/run/serial.h"
 #include "mis/run/tbb.h"
 #include "mis/trace/analytic.h"
+#include "tests/compare/synthetic_cost.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -172,6 +173,70 @@ TEST(CostStudy, AddsTheBestInDoubleAndWithFourLightDraws)
     for (const CostCurveReport& curve : report.curves) EXPECT_EQ(curve.points.size(), 4U);
     EXPECT_LT(report.curves[2].relative_variance.value,
               0.9 * report.curves[0].relative_variance.value);
+}
+
+/// With a number of samples no clock decides which curves there are, nor where all is black.
+TEST(CostStudy, ChoosesTheSameTwinsOnAnyMachine)
+{
+    const std::vector<CostChoice> choices =
+        choices_named({"uniform/power", "power/power", "all/power", "brdf"});
+    const auto names = [&](const AnyExecutor& executor) {
+        std::vector<std::string> found;
+        for (const CostCurveReport& curve :
+             costs_of(picture_to_cost(), choices, {.spp = 8, .adds_twins = true}, executor).curves)
+            found.push_back(name_of(curve));
+        return found;
+    };
+    const std::vector<std::string> one = names(serial);
+    EXPECT_EQ(one, names(any_executor(TbbExecutor(3))));
+    EXPECT_EQ(one.at(4), "all/power in double");  // the least variance for its draws
+}
+
+TEST(CostStudy, SaysThatABlackSceneIsBlack)
+{
+    Scene scene = picture_to_cost();
+    for (Light& light : scene.lights) light.radiance_radius = {0, 0, 0};
+    const CostSceneReport report = costs_of(scene, choices_named({"uniform/power"}), {.spp = 4});
+    EXPECT_TRUE(report.is_black);
+    const std::vector<std::string> sentences = sentences_of(report);
+    ASSERT_EQ(sentences.size(), 1U);
+    EXPECT_NE(sentences[0].find("black"), std::string::npos) << sentences[0];
+}
+
+/// All lights are drawn for the reference where that is best, also of more than a few lights.
+TEST(CostStudy, ItsReferenceDrawsAllOfSomeLightsWhereThatIsBest)
+{
+    Scene scene = picture_to_cost();
+    scene.lights.clear();
+    for (int j = 0; j < 40; ++j)
+        scene.lights.push_back(
+            make_light({0.3 * (j - 20), 3, 0.1 * (j % 7)}, 0.05, Vec3<double>(1 + j % 5)));
+    const CostSceneReport report = costs_of(scene, choices_named({"uniform/power"}), {.spp = 2});
+    EXPECT_EQ(report.reference.sources.size(), 4U);
+    EXPECT_EQ(report.reference.sources.front(), "all/power");
+    EXPECT_TRUE(report.reference.agrees);
+    EXPECT_LT(report.reference.error, 0.02);
+}
+
+/// One curve is known to reach 1 %; another was ahead of it when the reference told no more.
+TEST(CostSentences, NameWhatMayBeSooner)
+{
+    const CostGround ground{.points = 1000, .threads = 1, .reference = {1e-3, 1e-6, 1e-3}};
+    CostSceneReport report;
+    report.shading_points = 1000, report.replicates = 8;
+    report.curves = {curve_report(measured({.variance = 1, .reference = 1e-3}), ground),
+                     curve_report(measured({.name = "all/power",
+                                            .variance = 1e-4,
+                                            .reference = 1e-3,
+                                            .per_sample = 3e-7,
+                                            .levels = 1}),
+                                  ground)};
+    ASSERT_EQ(report.curves[1].times[3].reach, Reach::unknown);
+    const std::vector<std::string> sentences = sentences_of(report);
+    ASSERT_GE(sentences.size(), 2U);
+    EXPECT_EQ(sentences[0].rfind("Of those whose time is known, power/power", 0), 0U)
+        << sentences[0];
+    EXPECT_NE(sentences[1].find("by all/power; when"), std::string::npos) << sentences[1];
 }
 
 TEST(CostChoices, AreTheFirstInDoubleAndTheFirstThatMixesWithFourLightDraws)

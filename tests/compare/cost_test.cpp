@@ -122,6 +122,66 @@ TEST(Cost, SplitsTimeIntoWhatAPointSharesAndSamples)
     EXPECT_NEAR(one.seconds_per_sample, 6e-7, 1e-15);
 }
 
+/// The second level was quicker than the first: a line would have no time per sample left.
+TEST(Cost, NeverTakesNoTimePerSample)
+{
+    CostMeasurements m = measured({.prepare = 4e-7, .clock_noise = 0});
+    m.levels.resize(2);
+    for (double& seconds : m.levels[1].seconds) seconds *= 0.1;
+    const TimeObservation time = fitted_time(m.levels, 0);
+    EXPECT_GT(time.seconds_per_sample, 1e-9);
+    EXPECT_EQ(time.seconds_per_point, 0);
+}
+
+/// Levels are timed at different moments; what lies between two of them took what they took.
+TEST(Cost, MeasuredTimesLieBetweenTheTimesOfTheirLevels)
+{
+    CostMeasurements m = measured({.noise = 1e-4, .clock_noise = 1e-3});
+    for (double& seconds : m.levels[2].seconds) seconds *= 1.5;  // 4 samples: 5 %
+    const CostCurveReport curve = curve_report(m, ground_of_curve);
+    const TimeToError& found = time_to(curve, 0.05);
+    ASSERT_EQ(found.reach, Reach::measured);
+    EXPECT_NEAR(found.seconds.value, curve.points[2].seconds.value,
+                0.02 * curve.points[2].seconds.value);
+    // And what lies beyond goes on from the longest level.
+    for (double& seconds : m.levels[6].seconds) seconds *= 1.2;
+    const CostCurveReport slower = curve_report(m, ground_of_curve);
+    EXPECT_NEAR(time_to(slower, 0.005).seconds.value / time_to(curve, 0.005).seconds.value, 1.2,
+                0.02);
+}
+
+/// As of sequences: steeper than the root, so the last level bounds what is beyond.
+TEST(Cost, OfSequencesBoundsTimesBeyondTheLastLevel)
+{
+    CostMeasurements m = measured({.noise = 1e-3, .clock_noise = 1e-3});
+    for (CostLevel& level : m.levels) {
+        level.spreads = level.squared_errors;
+        for (std::vector<double>& replicate : level.squared_errors)
+            for (double& square : replicate) square /= std::sqrt(double(level.samples));
+        level.participation = {1e6, 1e6};
+    }
+    const CostCurveReport curve = curve_report(m, ground_of_curve);
+    EXPECT_FALSE(curve.fits);
+    const TimeToError& beyond = time_to(curve, 0.005);
+    ASSERT_EQ(beyond.reach, Reach::at_most);
+    const double last = curve.points.back().error.value;
+    EXPECT_NEAR(beyond.samples, 64 * last * last / (0.005 * 0.005), 2);
+    EXPECT_EQ(beyond.seconds.low, 0);
+    EXPECT_GT(beyond.seconds.high, beyond.seconds.value);
+    EXPECT_EQ(time_to(curve, 0.05).reach, Reach::measured);
+}
+
+TEST(Cost, BoundsNoErrorBelowWhatTheReferenceTells)
+{
+    const CostGround known{.points = 1000, .threads = 1, .reference = {1e-5, 1e-9, 1e-4}};
+    const CostCurveReport curve =
+        curve_report(measured({.variance = 1e-7, .reference = 1e-5, .noise = 1e-6}), known);
+    for (const CostPoint& point : curve.points) {
+        EXPECT_EQ(point.trust, Trust::below_reference);
+        EXPECT_GE(point.error.high, 1e-2);
+    }
+}
+
 TEST(Cost, IsSteeperInTimeWherePreparationIsLong)
 {
     const CostCurveReport none = curve_report(measured({}), ground_of_curve),
