@@ -100,8 +100,10 @@ void count_light_rays(benchmark::State& state, const Ready& ready)
 
 void add_counters()
 {
+    // Rays are asked for wherever a draw is worth something, whatever is proved of its tile.
     const auto add = [](const std::string& name, const std::string& scene, auto count) {
-        const LazyReady ready = ready_lazily([=] { return shipped_scene(scene); });
+        const LazyReady ready =
+            ready_lazily([=] { return shipped_scene(scene); }, Effect::everything);
         benchmark::RegisterBenchmark(name.c_str(),
                                      [=](benchmark::State& state) { count(state, ready()); })
             ->Iterations(1)

@@ -70,7 +70,8 @@ std::string stages_table(const Figures& figures)
     Rows table{heads};
     for (const auto& entry : figures.all()) {
         const std::string& name = entry.first;
-        if (!entry.second.contains("ns_per_sample")) continue;
+        if (!entry.second.contains("ns_per_sample") || !entry.second.contains("ns_prepare"))
+            continue;
         const auto ns = [&](const std::string& counter) {
             const double median = figures.at(name, counter).median;
             return median < 0.05 ? std::string("-") : fmt::format("{:.1f}", median);
