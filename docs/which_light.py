@@ -4,7 +4,7 @@
     ./do which-light [--quick] [--from FOLDER] [--into FOLDER]
 
 Runs `mis compare` on every scene that comes along and on up to a million random lights. Of the page it rewrites what
-stands between `<!-- table: NAME -->` and `<!-- end -->`, and draws the pictures. Prose is left alone; what it claims in
+stands between `<!-- table: NAME -->` and `<!-- end -->`, and draws the pictures. Of random lamps over a plain it asks `mis predict`. Prose is left alone; what it claims in
 comments `<!-- holds … -->` is checked against the figures. Needs nothing but Python 3 and mis.
 """
 
@@ -14,6 +14,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import re
 import subprocess
 import sys
@@ -28,6 +29,10 @@ SAMPLES = {  # per point
 }  # fmt: skip
 TOO_MANY = {"hundred", "street"}  # lights, to draw towards each
 COUNTS = [10**3, 10**4, 10**5, 10**6]  # of random lights
+SURFACES = {  # under random lamps that nothing shades but they themselves
+    "matt": {"type": "lambert", "albedo": 0.5},
+    **{f"`blinn`, m = {m}": {"type": "blinn", "diffuse": 0.1, "specular": 0.9, "exponent": m} for m in (20, 200, 2000)},
+}  # fmt: skip
 
 
 # What is measured.
@@ -80,6 +85,81 @@ def random_scene(count):
         "surfaces": [{"type": "quad", "corner": c, "edges": e, "material": "ground"} for c, e in quads],
         "lights": [{"type": "random", "count": count, "seed": 1, **lamps}],
     }
+
+
+class Lamps(typing.NamedTuple):
+    """Random lamps over a plain, at some points of which `mis predict` knows the variances without a sample."""
+
+    what: str
+    surface: str
+    count: int
+    half_width: float  # of the plain; metres
+    scenes: int
+    strategies: list
+
+    def file(self, scene):
+        surface = re.sub("[^a-z0-9]+", "-", self.surface)
+        return f"lamps-{self.count}-{surface.strip('-')}-{scene}"
+
+
+def lamps_for(quick):
+    ways = [f"{c}/light" for c in CHOICES] + ["irradiance/light/projected", "irradiance/balance", "product/balance"]
+    few = [Lamps(f"32 lamps, {s}", s, 32, 5, 1 if quick else 6, ways) for s in SURFACES]
+    many = ways[:7]  # by 1000 lamps, the union of the others takes too long
+    return few + [Lamps(f"1000 lamps, {s}", s, 1000, 50, 1, many) for s in list(SURFACES)[::2]]
+
+
+def lamp_scene(lamps, seed):
+    """Radii and radiances over decades; eight points, each seen from somewhere above."""
+    draw = random.Random(1000 * lamps.count + seed)
+
+    def power_law(low, high):
+        return math.exp(draw.uniform(math.log(low), math.log(high)))
+
+    def over_plain(low, high, share=1):
+        across = share * lamps.half_width
+        return [draw.uniform(-across, across), draw.uniform(low, high), draw.uniform(-across, across)]
+
+    probes, lights = [], []
+    for _ in range(8):
+        theta, phi = draw.uniform(0.2, 1.3), draw.uniform(0, 2 * math.pi)
+        view = [math.sin(theta) * math.cos(phi), math.cos(theta), math.sin(theta) * math.sin(phi)]
+        probes.append({"position": over_plain(0, 0, 0.8), "normal": [0, 1, 0], "outgoing": view, "material": "m"})
+    for _ in range(lamps.count):
+        radius, radiance = power_law(0.02, 0.3), power_law(1, 100)
+        lights.append({"center": over_plain(0.7, 4), "radius": radius, "radiance": [radiance] * 3})
+    return {"format": "mis-scene/1", "materials": {"m": SURFACES[lamps.surface]}, "probes": probes, "lights": lights}
+
+
+def predict_lamps(mis, all_lamps, folder):
+    """Leaves the exact figures of each of their scenes in the folder."""
+    for lamps in all_lamps:
+        for k in range(lamps.scenes):
+            scene, out = folder / f"{lamps.file(k)}.scene.json", folder / f"{lamps.file(k)}.json"
+            write(scene, json.dumps(lamp_scene(lamps, k)))
+            command = [mis, "predict", scene, "--strategy", ",".join(lamps.strategies), "--quiet", "--json", out]
+            subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
+
+
+def read_lamps(all_lamps, folder):
+    """What → strategy → relative variance of a sample, the mean over points and scenes."""
+    found = {}
+    for lamps in all_lamps:
+        sums = found.setdefault(lamps.what, dict.fromkeys(lamps.strategies, 0.0))
+        for k in range(lamps.scenes):
+            report = json.loads((folder / f"{lamps.file(k)}.json").read_text())["scenes"][0]
+            for s in report["strategies"]:
+                squares = [p["variance"]["value"] / p["mean"]["value"] ** 2 for p in s["probes"]]
+                sums[s["name"]] += sum(squares) / len(squares) / lamps.scenes
+    return found
+
+
+class Found(dict):
+    """By name, the scene of each report; and what is known of lamps."""
+
+    def __init__(self, scenes, lamps):
+        super().__init__(scenes)
+        self.lamps = lamps
 
 
 def measure(mis, runs, folder):
@@ -245,7 +325,17 @@ def origin(found):
     return f"{where}; {scene['date']}, in {minutes:.1f} minutes; seed {scene['seed']}.\n\n```sh\n{command}\n```"
 
 
-TABLES = [policies, ways, seconds, scaling, origin]
+def lamps(found):
+    """Relative variances that are known without a sample."""
+    columns = list(next(iter(found.lamps.values())))
+
+    def cells(figures):
+        return [number(figures[name]) if name in figures else "–" for name in columns]
+
+    return table(["scene", *columns], [[what, *cells(figures)] for what, figures in found.lamps.items()])
+
+
+TABLES = [policies, ways, seconds, scaling, lamps, origin]
 COMPLETE = """# Which light: the complete tables
 
 By `./do which-light`; [which-light.md](which-light.md) says what they show and how they were made,
@@ -331,7 +421,10 @@ def broken_claims(page, found):
     for block in re.findall(r"<!-- holds\n(.*?)-->", page, re.S):
         for claim in block.splitlines():
             (scene, *words), expected = claim.split(": ")[0].split(), claim.split(": ")[1]
-            if scene in found and not (is_status if len(words) == 1 else is_ratio)(found[scene], words, expected):
+            if scene == "lamps":
+                if not is_lamps(found.lamps, claim):
+                    yield claim
+            elif scene in found and not (is_status if len(words) == 1 else is_ratio)(found[scene], words, expected):
                 yield claim
 
 
@@ -346,6 +439,14 @@ def is_ratio(scene, words, expected):
     above, below = [float(n) if n[0].isdigit() else is_ranked(s) and value(s, key) for n, s in zip(names, strategies)]
     low, high = map(float, expected.split(" to "))
     return above and below and low <= above / below <= high
+
+
+def is_lamps(known, claim):
+    """Like `lamps WHAT: A / B: LOW to HIGH`; a number stands for itself."""
+    what, ratio, expected = claim.removeprefix("lamps ").split(": ")
+    above, below = [float(n) if n[0].isdigit() else known[what][n] for n in ratio.split(" / ")]
+    low, high = map(float, expected.split(" to "))
+    return low <= above / below <= high
 
 
 def write(file, text):
@@ -389,7 +490,8 @@ def main():
     try:
         if not options.reports:
             measure(options.mis, runs, folder)
-        found = read(runs, folder)
+            predict_lamps(options.mis, lamps_for(options.quick), folder)
+        found = Found(read(runs, folder), read_lamps(lamps_for(options.quick), folder))
     except (OSError, subprocess.CalledProcessError) as error:
         sys.exit(f"which_light.py: {error}")
     page = publish(found, options.into or (work if options.quick else ROOT / "docs"))

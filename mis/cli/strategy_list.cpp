@@ -27,6 +27,16 @@ void add(StrategySelection& selection, const Strategy& strategy)
         selection.strategies.push_back(strategy);
 }
 
+/// Which policies are not among these, and how to have them.
+std::string policies_beside(const std::vector<std::string>& policies)
+{
+    std::string others;
+    for (const std::string& name : names_of(policy_names()))
+        if (std::find(policies.begin(), policies.end(), name) == policies.end())
+            others += (others.empty() ? "" : ",") + name;
+    return "the policies that know most of a light; --policy " + others + " ranks them";
+}
+
 /// Policies × heuristics × techniques × models; brdf among the heuristics stands for the strategy
 /// of that name.
 void add_product(StrategySelection& selection, const StrategyLists& lists)
@@ -56,6 +66,7 @@ void add_product(StrategySelection& selection, const StrategyLists& lists)
                 }
     if (std::find(heuristics.begin(), heuristics.end(), "brdf") != heuristics.end())
         add(selection, parse_strategy("brdf"));
+    if (!lists.policies) selection.left_out.push_back(policies_beside(policies));
 }
 
 }  // namespace

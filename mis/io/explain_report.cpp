@@ -79,7 +79,7 @@ std::string explanation_text(const Explanation& found)
         paragraph("shading points",
                   fmt::format("{} in {}{}", found.shading_points, many(found.tiles, "tile"),
                               found.dark_points > 0
-                                  ? fmt::format("; {} see no light: inside one, or seen from below",
+                                  ? fmt::format("; {} see no light: inside one, facing none, or seen from below",
                                                 found.dark_points)
                                   : ""));
     for (const MaterialUse& material : found.materials)

@@ -3,6 +3,8 @@
 #include "mis/trace/intersect.h"
 #include "mis/trace/surface_points.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -98,7 +100,7 @@ void occluded(const int* valid, RTCScene tree, RTCRay16& rays) { MIS_OCCLUDED(16
 /// Asks for the rays in packets of N: their samples are neighbours, whose rays go much the same
 /// way, and even where they do not a packet is quicker than rays one by one.
 template <class Packet, std::size_t N>
-void answer_in_packets(RTCScene tree, std::span<const ShadowRay> rays,
+void answer_in_packets(RTCScene tree, float scale, std::span<const ShadowRay> rays,
                        std::span<std::uint8_t> hidden)
 {
     alignas(64) std::array<int, N> valid;  // NOLINT: filled below
@@ -108,14 +110,14 @@ void answer_in_packets(RTCScene tree, std::span<const ShadowRay> rays,
         for (std::size_t i = 0; i < N; ++i) {
             const ShadowRay& ray = rays[first + std::min(i, count - 1)];
             valid[i] = i < count ? -1 : 0;
-            packet.org_x[i] = ray.origin.x;
-            packet.org_y[i] = ray.origin.y;
-            packet.org_z[i] = ray.origin.z;
+            packet.org_x[i] = ray.origin.x * scale;
+            packet.org_y[i] = ray.origin.y * scale;
+            packet.org_z[i] = ray.origin.z * scale;
             packet.dir_x[i] = ray.direction.x;
             packet.dir_y[i] = ray.direction.y;
             packet.dir_z[i] = ray.direction.z;
             packet.tnear[i] = packet.time[i] = 0;
-            packet.tfar[i] = ray.distance;
+            packet.tfar[i] = ray.distance * scale;
             packet.mask[i] = ~0U;
             packet.id[i] = packet.flags[i] = 0;
         }
@@ -135,11 +137,32 @@ N* buffer_of(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::si
     return static_cast<N*>(data);
 }
 
+/// A power of two that makes the surfaces of a very large or very small scene about as large as 1:
+/// Embree multiplies lengths by one another in float. Else 1.
+double scale_of(const Scene& scene, const Vec3<double>& origin)
+{
+    double largest = 0;
+    const auto reach = [&](const Vec3<double>& p) {
+        largest = std::max(largest, largest_coordinate(p - origin));
+    };
+    for (const Surface& surface : scene.surfaces) {
+        if (const auto* quad = std::get_if<Quad>(&surface.shape))
+            reach(quad->corner), reach(quad->corner + quad->edges[0] + quad->edges[1]);
+        else if (const auto* sphere = std::get_if<SphereSurface>(&surface.shape))
+            reach(sphere->center + sphere->radius), reach(sphere->center - sphere->radius);
+        else
+            for (const Vec3<double>& p : std::get<Mesh>(surface.shape).positions) reach(p);
+    }
+    if (!(largest > 0) || (largest > 0x1p-10 && largest < 0x1p20)) return 1;
+    return std::exp2(-std::ilogb(largest));
+}
+
 }  // namespace
 
 /// Embree's device and scene, and which surface a geometry is.
 struct EmbreeTracer::Trees {
-    explicit Trees(const Scene& s) : scene(s), origin(frame_origin_of(s))
+    explicit Trees(const Scene& s)
+        : scene(s), origin(frame_origin_of(s)), scale(scale_of(s, origin))
     {
         device = rtcNewDevice(nullptr);
         if (device == nullptr)
@@ -181,7 +204,7 @@ struct EmbreeTracer::Trees {
             const auto& shape = scene.surfaces[s].shape;
             if (std::holds_alternative<Quad>(shape)) quads.push_back(s);
             else if (const auto* sphere = std::get_if<SphereSurface>(&shape))
-                spheres.push_back({sphere->center - origin, sphere->radius, s});
+                spheres.push_back({(sphere->center - origin) * scale, sphere->radius * scale, s});
             else add_mesh(std::get<Mesh>(shape), s);
         }
         if (!quads.empty()) add_quads(std::move(quads));
@@ -190,7 +213,7 @@ struct EmbreeTracer::Trees {
 
     void put(float* vertices, std::size_t i, const Vec3<double>& p) const
     {
-        const Vec3<float> v = vec_cast<float>(p - origin);
+        const Vec3<float> v = vec_cast<float>((p - origin) * scale);
         vertices[3 * i] = v.x, vertices[3 * i + 1] = v.y, vertices[3 * i + 2] = v.z;
     }
 
@@ -259,6 +282,7 @@ struct EmbreeTracer::Trees {
 
     const Scene& scene;
     Vec3<double> origin;
+    double scale;  ///< of Embree's lengths, over the scene's
     RTCDevice device = nullptr;
     int widest_packet = 4;  ///< of those that the machine has vectors for: 16, 8 or 4
     RTCScene tree = nullptr;
@@ -268,7 +292,7 @@ struct EmbreeTracer::Trees {
 
 void occluded_in(RTCSceneTy* scene, std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden)
 {
-    answer_in_packets<RTCRay8, 8>(scene, rays, hidden);
+    answer_in_packets<RTCRay8, 8>(scene, 1, rays, hidden);
 }
 
 EmbreeTracer::EmbreeTracer(const Scene& scene) : trees_(std::make_unique<Trees>(scene)) {}
@@ -277,17 +301,18 @@ EmbreeTracer::~EmbreeTracer() = default;
 void EmbreeTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const
 {
     const RTCScene tree = trees_->tree;
-    if (trees_->widest_packet == 16) answer_in_packets<RTCRay16, 16>(tree, rays, hidden);
-    else if (trees_->widest_packet == 8) answer_in_packets<RTCRay8, 8>(tree, rays, hidden);
-    else answer_in_packets<RTCRay4, 4>(tree, rays, hidden);
+    const auto scale = static_cast<float>(trees_->scale);
+    if (trees_->widest_packet == 16) answer_in_packets<RTCRay16, 16>(tree, scale, rays, hidden);
+    else if (trees_->widest_packet == 8) answer_in_packets<RTCRay8, 8>(tree, scale, rays, hidden);
+    else answer_in_packets<RTCRay4, 4>(tree, scale, rays, hidden);
 }
 
 std::optional<SurfaceHit> EmbreeTracer::first_hit(const Vec3<double>& origin,
                                                   const Vec3<double>& direction) const
 {
     RTCRayHit ray{};
-    ray.ray = ray_of(vec_cast<float>(origin - trees_->origin), vec_cast<float>(direction),
-                     std::numeric_limits<float>::infinity());
+    ray.ray = ray_of(vec_cast<float>((origin - trees_->origin) * trees_->scale),
+                     vec_cast<float>(direction), std::numeric_limits<float>::infinity());
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
 #if MIS_EMBREE_MAJOR >= 4
     rtcIntersect1(trees_->tree, &ray, nullptr);

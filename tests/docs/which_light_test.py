@@ -31,7 +31,10 @@ class WhichLight(unittest.TestCase):
         cls.runs = which_light.runs_for(cls.folder, quick=True)
         with contextlib.redirect_stderr(io.StringIO()):
             which_light.measure(PROGRAM, cls.runs, cls.folder)
-        cls.found = which_light.read(cls.runs, cls.folder)
+        lamps = which_light.lamps_for(quick=True)
+        which_light.predict_lamps(PROGRAM, lamps, cls.folder)
+        read = which_light.read(cls.runs, cls.folder), which_light.read_lamps(lamps, cls.folder)
+        cls.found = which_light.Found(*read)
 
     def claims(self, *lines):
         return list(which_light.broken_claims("<!-- holds\n" + "\n".join(lines) + "\n-->", self.found))
@@ -71,11 +74,22 @@ class WhichLight(unittest.TestCase):
         self.assertEqual(self.claims(*false, *unknown), false + unknown)
 
     def test_what_the_page_claims_can_be_read(self):
-        scenes = {**self.found, **{f"random-{count}": self.found["random-1000"] for count in which_light.COUNTS}}
+        random = {f"random-{count}": self.found["random-1000"] for count in which_light.COUNTS}
+        scenes = which_light.Found({**self.found, **random}, self.found.lamps)
         blocks = re.findall(r"<!-- holds\n(.*?)-->", PAGE, re.S)
         claimed = {line.split()[0] for block in blocks for line in block.splitlines()}
-        self.assertLessEqual(claimed, set(scenes))
+        self.assertLessEqual(claimed, {*scenes, "lamps"})
         list(which_light.broken_claims(PAGE, scenes))
+
+    def test_lamps_are_known_without_a_sample(self):
+        matt = self.found.lamps["32 lamps, matt"]
+        self.assertAlmostEqual(matt["product/light"], matt["irradiance/light"], delta=1e-6)  # without a lobe they are one
+        self.assertLess(matt["irradiance/light/projected"], matt["irradiance/light"])
+        row = next(line for line in which_light.lamps(self.found).splitlines() if line.startswith("| 32 lamps, matt"))
+        self.assertEqual(row.split("|")[2].strip(), which_light.number(matt["uniform/light"]))
+        true = "lamps 32 lamps, matt: uniform/light / irradiance/light: 2 to 1e6"
+        false = "lamps 32 lamps, matt: uniform/light / irradiance/light: 0 to 2"
+        self.assertEqual(self.claims(true, false), [false])
 
     def test_pictures_are_small_and_whole(self):
         for name, picture in which_light.pictures(self.found).items():

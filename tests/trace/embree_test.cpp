@@ -55,8 +55,9 @@ struct Place {
     double extent;
     Vec3<double> around;
 };
-const std::vector<Place> places{
-    {1, Vec3<double>(0)}, {1e-3, Vec3<double>(0)}, {1e4, Vec3<double>(0)}, {1, Vec3<double>(1e6)}};
+const std::vector<Place> places{{1, Vec3<double>(0)},     {1e-3, Vec3<double>(0)},
+                                {1e4, Vec3<double>(0)},   {1, Vec3<double>(1e6)},
+                                {1e-15, Vec3<double>(0)}, {1e13, Vec3<double>(0)}};
 
 constexpr double edge =
     1e-5;  ///< of the extent: nearer to an edge than this, either answer is right
