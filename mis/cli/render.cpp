@@ -113,8 +113,8 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     }
     if (!share.is_all())
         throw UsageError(fmt::format(
-            "--strategy exact: {} of the {} shading points of {} have a closed form ({} of {} "
-            "tiles), and all must: surfaces without a lobe, and no surface and no other light that "
+            "--strategy exact: {} of the {} shading points of {}, in {} of {} tiles, have a closed "
+            "form, and all must: surfaces without a lobe, and no surface and no other light that "
             "may stand before any light; `mis explain` says why one may\n"
             "    `mis predict` has exact values of probes on any material.",
             share.exact, share.points, ready.scene.file, share.exact_tiles, share.tiles));

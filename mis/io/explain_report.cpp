@@ -75,13 +75,14 @@ std::string explanation_text(const Explanation& found)
             paragraph("picture", fmt::format("{} x {} pixels, of which {} show no surface",
                                              found.width, found.height, found.background_pixels));
     if (found.probes > 0) text += paragraph("probes", std::to_string(found.probes));
-    text +=
-        paragraph("shading points",
-                  fmt::format("{} in {}{}", found.shading_points, many(found.tiles, "tile"),
-                              found.dark_points > 0
-                                  ? fmt::format("; {} see no light: inside one, facing none, or seen from below",
-                                                found.dark_points)
-                                  : ""));
+    text += paragraph(
+        "shading points",
+        fmt::format(
+            "{} in {}{}", found.shading_points, many(found.tiles, "tile"),
+            found.dark_points > 0
+                ? fmt::format("; {} see no light: inside one, facing none, or seen from below",
+                              found.dark_points)
+                : ""));
     for (const MaterialUse& material : found.materials)
         text += paragraph("material",
                           fmt::format("{} ({}), {}", printable(material.name), material.type,

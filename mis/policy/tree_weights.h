@@ -78,7 +78,7 @@ MIS_OWN_COPY void weigh_lights(const Reflection& reflection, const TreePoint<Sca
 
 /// A part whose doubt is at most this share of its weight, and which stands well apart from the
 /// point and its horizon, is even: lights in it are drawn by power alone.
-inline constexpr double even_doubt = 0.04;
+inline constexpr double even_doubt = 0.015;
 
 /// What the parts of a group are worth, as far as one can say without a look into them: positive
 /// where a light of theirs may be above the horizon. doubts: how much the lights within a part

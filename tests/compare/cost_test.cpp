@@ -153,7 +153,7 @@ TEST(Cost, MeasuredTimesLieBetweenTheTimesOfTheirLevels)
 /// As of sequences: steeper than the root, so the last level bounds what is beyond.
 TEST(Cost, OfSequencesBoundsTimesBeyondTheLastLevel)
 {
-    CostMeasurements m = measured({.noise = 1e-3, .clock_noise = 1e-3});
+    CostMeasurements m = measured({.variance = 0.1, .noise = 1e-3, .clock_noise = 1e-3});
     for (CostLevel& level : m.levels) {
         level.spreads = level.squared_errors;
         for (std::vector<double>& replicate : level.squared_errors)
