@@ -37,7 +37,11 @@ void check(const OutputOptions& options)
 {
     if (options.json == "-" && options.csv == "-")
         throw UsageError("--json and --csv: found - for both; standard output takes one of them");
-    if (!options.json.empty() && options.json == options.csv)
+    const auto place = [](const std::string& file) {
+        std::error_code none;
+        return std::filesystem::weakly_canonical(file, none);
+    };
+    if (!options.json.empty() && !options.csv.empty() && place(options.json) == place(options.csv))
         throw UsageError(fmt::format(
             "--json and --csv: found {} for both; a file takes one of them", options.json));
     check_output_file("--json", options.json);

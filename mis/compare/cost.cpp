@@ -99,14 +99,17 @@ LogEstimate log_wall_seconds(const Between& at, const CostGround& ground)
     return wall;
 }
 
-/// The last trusted level, whose errors are those of scrambled sequences: they fall at least as
-/// fast as the root of their samples.
-const CostLevel* last_of_sequences(std::span<const CostLevel> levels,
-                                   std::span<const SquaredError> errors)
+/// The first trusted level past √square, or else the last trusted one; nothing where none is.
+const CostLevel* bounding_level(std::span<const CostLevel> levels,
+                                std::span<const SquaredError> errors, double square)
 {
-    for (std::size_t k = levels.size(); k-- > 0;)
-        if (errors[k].trust == Trust::trusted && !levels[k].spreads.empty()) return &levels[k];
-    return nullptr;
+    const CostLevel* found = nullptr;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        if (errors[k].trust != Trust::trusted) continue;
+        found = &levels[k];
+        if (errors[k].value <= square) break;
+    }
+    return found;
 }
 
 TimeToError time_to(double error, const CostMeasurements& curve,
@@ -133,15 +136,19 @@ TimeToError time_to(double error, const CostMeasurements& curve,
         if (std::isfinite(wall.value)) found.seconds = interval_of(wall);
         return found;
     }
-    const CostLevel* last = last_of_sequences(curve.levels, errors);
-    if (last != nullptr && (curve_found.fits || curve_found.slope.high < -0.5)) {
-        const SquaredError& e = errors[static_cast<std::size_t>(last - curve.levels.data())];
-        found = at({std::log(double(last->samples) * e.value / square), e.se / e.value, e.dof},
+    if (std::isnan(model.log_variance.value)) return found;
+    if (!curve.levels[0].spreads.empty()) {
+        // The error of sequences falls at least as the root of their samples.
+        const CostLevel* level = bounding_level(curve.levels, errors, square);
+        if (level == nullptr || !(curve_found.fits || curve_found.slope.high < -0.5)) return found;
+        const SquaredError& e = errors[static_cast<std::size_t>(level - curve.levels.data())];
+        found = at({std::log(double(level->samples) * std::max(1.0, e.value / square)),
+                    e.value > square ? e.se / e.value : 0, e.dof},
                    Reach::at_most);
         found.seconds.low = 0;
         return found;
     }
-    if (last != nullptr || !curve_found.fits || std::isnan(model.log_variance.value)) return found;
+    if (!curve_found.fits) return found;
     LogEstimate beyond = model.log_variance;
     beyond.value -= std::log(square);
     return at(beyond, Reach::extrapolated);

@@ -112,30 +112,51 @@ void weigh(const StudyGround& ground, std::span<Source> sources)
     for (Source& source : sources) source.weight /= sum;
 }
 
-/// The variance of the pooled means; where the first two sources differ by more than theirs, that
-/// counts in what errors are not trusted below.
+/// How far the best source is from the others, pooled by their precision, over the scale; and what
+/// their noise makes of that.
+struct Difference {
+    double squared = 0, noise = 0, noise2 = 0;  ///< sums over the points; of the noise's squares
+};
+
+Difference difference_of(const StudyGround& ground, std::span<const Source> sources,
+                         const std::vector<double>& squares)
+{
+    Difference found;
+    double weights = 0;
+    for (const Source& source : sources.subspan(1)) weights += source.weight;
+    for (std::size_t p = 0; p < ground.points.figure_lit; ++p) {
+        double others = 0, variance = sources[0].variance(p);
+        for (const Source& source : sources.subspan(1)) {
+            const double share = source.weight / weights;
+            others += share * source.mean(p), variance += share * share * source.variance(p);
+        }
+        const double noise = relative(variance, squares[p]);
+        found.squared += relative(std::pow(sources[0].mean(p) - others, 2), squares[p]);
+        found.noise += noise, found.noise2 += noise * noise;
+    }
+    return found;
+}
+
+/// The variance of the pooled means; where the best source differs from the others by more than
+/// their noise, that counts in what errors are not trusted below.
 ReferenceError error_of(const StudyGround& ground, std::span<const Source> sources,
                         const std::vector<double>& squares, bool& agrees)
 {
-    double sum = 0, sum2 = 0, difference = 0, noise = 0, noise2 = 0;
+    double sum = 0, sum2 = 0;
     for (std::size_t p = 0; p < ground.points.figure_lit; ++p) {
-        double pooled = 0, both = 0;
-        for (std::size_t s = 0; s < sources.size(); ++s) {
-            const double variance = relative(sources[s].variance(p), squares[p]);
-            pooled += sources[s].weight * sources[s].weight * variance;
-            both += s < 2 ? variance : 0;
-        }
+        double pooled = 0;
+        for (const Source& source : sources)
+            pooled += source.weight * source.weight * relative(source.variance(p), squares[p]);
         sum += pooled, sum2 += pooled * pooled;
-        noise += both, noise2 += both * both;
-        if (sources.size() > 1)
-            difference +=
-                relative(std::pow(sources[0].mean(p) - sources[1].mean(p), 2), squares[p]);
     }
     const double n = points_of(ground);
     ReferenceError error{.squared = sum / n, .se = std::sqrt(2 * sum2) / n, .floor = sum / n};
-    const double excess = difference - noise;
+    agrees = true;
+    if (sources.size() < 2) return error;
+    const Difference difference = difference_of(ground, sources, squares);
+    const double excess = difference.squared - difference.noise;
     constexpr double surely = 6;  // standard errors; squares of differences have long tails
-    agrees = sources.size() < 2 || excess < surely * std::sqrt(2 * noise2) ||
+    agrees = excess < surely * std::sqrt(2 * difference.noise2) ||
              excess < n * std::pow(1e-5, 2);  // or it is rounding
     if (!agrees) error.floor += excess / n;
     return error;

@@ -47,16 +47,24 @@ double error_after(const CostCurveReport& curve, double seconds)
     return error;
 }
 
-/// Is it not known when this curve reaches 1 %, though at its last point it surely was ahead?
+/// Is it not known when this curve reaches 1 %, but perhaps for a bound, though at its last point
+/// it surely was ahead?
 bool may_be_sooner(const CostCurveReport& curve, const CostCurveReport& first)
 {
-    if (to_one_percent(curve) != nullptr) return false;
+    const TimeToError* time = to_one_percent(curve);
+    if (&curve == &first || (time != nullptr && time->reach != Reach::at_most)) return false;
     for (std::size_t k = curve.points.size(); k-- > 0;) {
         const CostPoint& last = curve.points[k];
         if (last.trust != Trust::rare_samples)
             return last.error.high < error_after(first, last.seconds.value);
     }
     return false;
+}
+
+/// Of a bound, the bound.
+double surely_by(const TimeToError& time)
+{
+    return time.reach == Reach::at_most ? time.seconds.high : time.seconds.value;
 }
 
 std::string reaches_one_percent(const CostCurveReport& curve, const TimeToError& time)
@@ -73,7 +81,7 @@ void add_first(std::vector<std::string>& sentences, const CostSceneReport& scene
     const CostCurveReport* first = nullptr;
     for (const CostCurveReport& curve : scene.curves)
         if (const TimeToError* time = to_one_percent(curve))
-            if (first == nullptr || time->seconds.value < to_one_percent(*first)->seconds.value)
+            if (first == nullptr || surely_by(*time) < surely_by(*to_one_percent(*first)))
                 first = &curve;
     if (first == nullptr) return;
     const TimeToError& time = *to_one_percent(*first);
@@ -86,13 +94,14 @@ void add_first(std::vector<std::string>& sentences, const CostSceneReport& scene
         if (may_be_sooner(curve, *first)) ahead.push_back(name_of(curve));
     }
     std::string text = reaches_one_percent(*first, time);
-    if (!ahead.empty()) text = "Of those whose time is known, " + text;
+    if (!ahead.empty() && time.reach != Reach::at_most)
+        text = "Of those whose time is known, " + text;
     if (!close.empty()) text += "; intervals overlap with " + listed(close);
     sentences.push_back(text + ".");
     if (!ahead.empty())
         sentences.push_back(
             "As far as it was measured, the error is smaller after the same time by " +
-            listed(ahead) + "; when that is 1 % is not known.");
+            listed(ahead) + "; when that is 1 % is not known, or but for a bound.");
 }
 
 void add_crossings(std::vector<std::string>& sentences, const CostSceneReport& scene)

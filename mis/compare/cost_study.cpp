@@ -209,11 +209,13 @@ private:
         if (by_time.empty()) return;
         std::stable_sort(by_time.begin(), by_time.end());
         const std::size_t best = by_time.front().second, count = curves_.size();
+        const double alike = curves_[best].all_seconds;
+        double promised = alike;  // it is timed anew
         std::vector<Strategy> strategies;
         for (const auto& [_, c] : by_time) strategies.push_back(curves_[c].measured.strategy);
         for (const CostChoice& twin : twins_of(strategies))
-            add_late(twin, curves_[best].all_seconds);
-        catch_up(best, count);
+            promised += add_late(twin, alike, promised);
+        if (promised > alike) catch_up(best, count);
     }
 
     /// Logarithm of the time to 1 %; of a fixed number of samples, by draws, which no clock
@@ -228,21 +230,22 @@ private:
     }
 
     /// A curve that begins later than the others; alike: what these took of a strategy that is like
-    /// it.
-    void add_late(const CostChoice& choice, double alike)
+    /// it; promised: seconds that are spoken for. Returns what it may take to catch up; 0: it does
+    /// not.
+    double add_late(const CostChoice& choice, double alike, double promised)
     {
         for (const Curve& curve : curves_)
             if (curve.measured.strategy == choice.strategy &&
                 curve.measured.precision == choice.precision)
-                return;
+                return 0;
         add_curve(choice);
         Curve& curve = curves_.back();
         constexpr double dearer = 2.5;  // at most, about
-        if (!options_.spp && dearer * alike > 0.8 * seconds_left()) {
+        if (!options_.spp && promised + dearer * alike > 0.8 * seconds_left()) {
             curve.is_done = true;
             curve.measured.reason = "past the budget: no time is left for another curve";
         }
-        if (!curve.is_done) is_ready(curve);
+        return !curve.is_done && is_ready(curve) ? dearer * alike : 0;
     }
 
     /// Gives the curves from `first` on the levels that the others have, in turns with one of
@@ -256,6 +259,7 @@ private:
             for (std::size_t r = 0; r < replicate_count; ++r) {
                 const std::uint64_t stream = k * replicate_count + r;
                 if (ground_.is_stopped()) return;
+                if (is_late()) return end_all();
                 curves_[beside].measured.levels[k].seconds[r] =
                     curves_[beside].sampler->run(samples, stream).seconds;
                 for (std::size_t c = first; c < curves_.size(); ++c) {
@@ -298,7 +302,8 @@ private:
         report.is_sobol = options_.is_sobol;
         report.epsilon = reference_.scale.epsilon;
         report.reference = reference_.report;
-        report.is_black = std::all_of(reference_.means.begin(), reference_.means.end(),
+        report.is_black = !reference_.means.empty() && !ground_.is_stopped() &&
+                          std::all_of(reference_.means.begin(), reference_.means.end(),
                                       [](double mean) { return mean == 0; });
         report.partial = ground_.is_stopped();
         std::vector<CostModel> models;

@@ -199,7 +199,7 @@ bool TilePlanner::is_unhidden(const Shaft& shaft, std::size_t light) const
         // What a direction in float may pass beside its light, where it passes the other one.
         const double margin =
             4e-6 * (length(other.center - shaft.middle()) + other.radius + shaft.box_radius()) +
-            1e-13 * far;
+            1e-13 * far + 1e-15 * length(shaft.middle());
         if (k != light && !is_clear_of(shaft, other.center, other.radius, margin)) return false;
     }
     return true;

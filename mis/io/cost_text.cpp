@@ -68,7 +68,8 @@ std::vector<const CostCurveReport*> in_order(const CostSceneReport& scene)
     for (const CostCurveReport& c : scene.curves) order.push_back(&c);
     const auto key = [](const CostCurveReport* c) {
         for (const TimeToError& t : c->times)
-            if (t.error == 0.01 && t.reach != Reach::unknown) return t.seconds.value;
+            if (t.error == 0.01 && t.reach != Reach::unknown)
+                return t.reach == Reach::at_most ? t.seconds.high : t.seconds.value;
         return c->points.empty() ? std::numeric_limits<double>::infinity() : 1e300;
     };
     std::stable_sort(order.begin(), order.end(),

@@ -147,14 +147,17 @@ double scale_of(const Scene& scene, const Vec3<double>& origin)
     };
     for (const Surface& surface : scene.surfaces) {
         if (const auto* quad = std::get_if<Quad>(&surface.shape))
-            reach(quad->corner), reach(quad->corner + quad->edges[0] + quad->edges[1]);
+            for (const double u : {0.0, 1.0})
+                for (const double v : {0.0, 1.0})
+                    reach(quad->corner + quad->edges[0] * u + quad->edges[1] * v);
         else if (const auto* sphere = std::get_if<SphereSurface>(&surface.shape))
             reach(sphere->center + sphere->radius), reach(sphere->center - sphere->radius);
         else
             for (const Vec3<double>& p : std::get<Mesh>(surface.shape).positions) reach(p);
     }
     if (!(largest > 0) || (largest > 0x1p-10 && largest < 0x1p20)) return 1;
-    return std::exp2(-std::ilogb(largest));
+    constexpr int most = 120;  // a float's
+    return std::exp2(std::clamp(-std::ilogb(largest), -most, most));
 }
 
 }  // namespace

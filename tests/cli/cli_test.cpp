@@ -101,7 +101,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"integrate --json /no/such/x.json", "there is no folder"},
         BadLine{"render VEACH --out /no/such/x.exr", "there is no folder"},
         BadLine{"render VEACH --strategy brdff --out x.exr", "Did you mean \"brdf\""},
-        BadLine{"cost VEACH --json x.out --csv x.out", "a file takes one of them"},
+        BadLine{"cost VEACH --json x.out --csv ./x.out", "a file takes one of them"},
         BadLine{"render VEACH --strategy exact --out x.exr", "have a closed form, and all must"},
         BadLine{"render VEACH --strategy exact --spp 4 --out x.exr", "takes no samples"},
         BadLine{"render VEACH --strategy exact --effects all --out x.exr", "--effects auto"},

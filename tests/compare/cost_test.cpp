@@ -169,6 +169,16 @@ TEST(Cost, OfSequencesBoundsTimesBeyondTheLastLevel)
     EXPECT_EQ(beyond.seconds.low, 0);
     EXPECT_GT(beyond.seconds.high, beyond.seconds.value);
     EXPECT_EQ(time_to(curve, 0.05).reach, Reach::measured);
+
+    // Levels that few rare samples carry tell nothing: the first that is trusted bounds what it has
+    // passed.
+    for (std::size_t k = 0; k < 5; ++k) m.levels[k].participation = {1, 1};
+    const CostCurveReport rare = curve_report(m, ground_of_curve);
+    ASSERT_EQ(rare.points[5].trust, Trust::trusted);
+    ASSERT_EQ(time_to(rare, 0.05).reach, Reach::at_most);
+    EXPECT_EQ(time_to(rare, 0.05).samples, 32);
+    for (CostLevel& level : m.levels) level.participation = {1, 1};
+    EXPECT_EQ(time_to(curve_report(m, ground_of_curve), 0.005).reach, Reach::unknown);
 }
 
 TEST(Cost, BoundsNoErrorBelowWhatTheReferenceTells)

@@ -241,7 +241,7 @@ TEST(Blockers, AreMadeSoonOrNeverWhereItIsKnownWhatComes)
     for (const std::size_t lights : {33U, 1000U, 4096U}) {
         const double worth = ListPatience::worth(lights);
         EXPECT_EQ(ListPatience::of(lights, 3 * worth), ListPatience::few);
-        EXPECT_GE(ListPatience::of(lights, 1.75 * worth), static_cast<std::uintptr_t>(1.5 * worth));
+        EXPECT_EQ(ListPatience::of(lights, 1.75 * worth), static_cast<std::uintptr_t>(2 * worth));
         EXPECT_EQ(ListPatience::of(lights, 0.1 * worth), ListPatience::never);
     }
     Uniforms uniforms(88);
