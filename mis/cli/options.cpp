@@ -39,7 +39,7 @@ void check(const OutputOptions& options)
         throw UsageError("--json and --csv: found - for both; standard output takes one of them");
     const auto place = [](const std::string& file) {
         std::error_code none;
-        return std::filesystem::weakly_canonical(file, none);
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file, none), none);
     };
     if (!options.json.empty() && !options.csv.empty() && place(options.json) == place(options.csv))
         throw UsageError(fmt::format(
