@@ -242,5 +242,21 @@ TEST(TilePlans, OfFloorUnderLightsTraceNothing)
         EXPECT_NE(stage.kind, StageKind::light_occlusion);
 }
 
+/// What is drawn below the floor is worth nothing, so the floor hides nothing of a light that it
+/// cuts; but of a light that a tilted point sees beyond the floor's far end it may.
+TEST(TilePlans, OfAFloorThatCutsALightTraceNothingUnlessThePointIsTilted)
+{
+    Scene scene = probe_under({make_light({3, 0.2, 0}, 0.5, Vec3<double>(1))}, grey_floor());
+    scene.surfaces = {{Quad{{-9, 0, -9}, {Vec3<double>{0, 0, 18}, Vec3<double>{18, 0, 0}}}, 0}};
+    for (const double tilt : {0.0, 1e-3}) {
+        scene.probes[0].normal = normalized(Vec3<double>{tilt, 1, 0});
+        const EmbreeTracer tracer(scene);
+        const TestScene test(scene, &tracer);
+        GBuffer probes = test.probes;
+        test.lit.plan(probes, any_executor(SerialExecutor{}));
+        EXPECT_EQ(probes.tiles.at(0).plan.shadows, tilt > 0) << tilt;
+    }
+}
+
 }  // namespace
 }  // namespace mis
