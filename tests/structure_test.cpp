@@ -50,7 +50,6 @@ const std::map<std::string, Names> outside_headers{
     {"oneapi/", {"run/tbb.h", "run/tbb.cpp"}},
     {"OpenImageIO/", {"io"}},
     {"nlohmann/", {"io"}},
-    {"assimp/", {"io"}},
     {"fmt/", {"io", "cli", "bind/python"}},
     {"CLI/", {"cli"}},
     {"pybind11/", {"bind/python"}},

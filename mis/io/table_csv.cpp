@@ -1,5 +1,6 @@
 #include "mis/io/table_csv.h"
 
+#include "mis/io/number_text.h"
 #include "mis/io/scene_error.h"
 #include "mis/io/scene_keys.h"
 #include "mis/io/text_file.h"
@@ -9,8 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -127,13 +126,8 @@ private:
     {
         const std::string_view text = trimmed(field);
         double number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error == std::errc::result_out_of_range)
-            fail(column, in_quotes(text), "a number lies within the range of a double",
-                 "Use other units.");
-        if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number))
-            fail(column, in_quotes(text), "a finite number belongs here",
-                 "Write it as 0.5 or 1e-3.");
+        if (const std::optional<NumberProblem> problem = read_number_text(text, number))
+            fail(column, in_quotes(text), problem->allowed, problem->remedy);
         return number;
     }
 
