@@ -49,7 +49,7 @@ void MeshBuilder::add_triangle(const std::array<MeshCorner, 3>& corners)
     const std::array<Vec3<double>, 3> p{positions[corners[0].position],
                                         positions[corners[1].position],
                                         positions[corners[2].position]};
-    const Vec3<double> area = area_vector(p[0], p[1], p[2], largest_coordinate(p));
+    const Vec3<double> area = area_vector(p[0], p[1], p[2]);
     if (area == Vec3<double>(0)) return;
     if (mesh_.triangles.size() >= limits::triangles)
         throw PolygonError{{"", "one more triangle than a scene may have",
@@ -74,8 +74,8 @@ void MeshBuilder::use_normals()
         check_();
         const std::array<Vec3<double>, 3> p{
             flat.positions[triangle[0]], flat.positions[triangle[1]], flat.positions[triangle[2]]};
-        const Vec3<float> normal = vec_cast<float>(transform_.place_normal(
-            unit_or_zero(area_vector(p[0], p[1], p[2], largest_coordinate(p)))));
+        const Vec3<float> normal =
+            vec_cast<float>(transform_.place_normal(unit_or_zero(area_vector(p[0], p[1], p[2]))));
         for (std::size_t i = 0; i < 3; ++i) triangle[i] = vertex_of(p[i], normal);
         mesh_.triangles.push_back(triangle);
     }

@@ -1,13 +1,10 @@
 #include "mis/io/ply.h"
 
-#include "mis/io/ply_header.h"
+#include "mis/io/ply_schema.h"
 #include "mis/io/ply_values.h"
-#include "mis/io/scene_error.h"
-#include "mis/io/text_file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -16,112 +13,6 @@
 
 namespace mis {
 namespace {
-
-[[noreturn]] void fail_on_header(const std::filesystem::path& file, std::string found,
-                                 std::string allowed)
-{
-    throw SceneError(file.string(),
-                     Problem{"", std::move(found), std::move(allowed), "Mend the file."});
-}
-
-constexpr std::array<std::string_view, 6> vertex_numbers{"x", "y", "z", "nx", "ny", "nz"};
-
-bool holds_triangles(const PlyElement& element)
-{
-    return element.name == "face" || element.name == "tristrips";
-}
-
-bool is_index_list(const PlyProperty& property)
-{
-    return property.name == "vertex_indices" || property.name == "vertex_index";
-}
-
-/// What a property of an element is read as: a number of a vertex, the list of a face, or nothing.
-enum Role : int { ignored = -1, list = 6 };
-int role_of(const PlyElement& element, const PlyProperty& property)
-{
-    if (holds_triangles(element)) return is_index_list(property) ? Role::list : Role::ignored;
-    if (element.name != "vertex") return Role::ignored;
-    const auto found = std::find(vertex_numbers.begin(), vertex_numbers.end(), property.name);
-    return found == vertex_numbers.end() ? Role::ignored
-                                         : static_cast<int>(found - vertex_numbers.begin());
-}
-
-/// How many of the properties x, y, z, or nx, ny, nz, an element has.
-std::ptrdiff_t count_of(const PlyElement& element, int first_role)
-{
-    return std::count_if(element.properties.begin(), element.properties.end(), [&](const auto& p) {
-        const int role = role_of(element, p);
-        return role >= first_role && role < first_role + 3;
-    });
-}
-
-void require_properties(const PlyElement& element, const std::filesystem::path& file)
-{
-    const std::string name = in_quotes(element.name);
-    std::ptrdiff_t lists = 0;
-    for (const PlyProperty& property : element.properties) {
-        const int role = role_of(element, property);
-        lists += role == Role::list ? 1 : 0;
-        if (role != Role::ignored && (role == Role::list) != property.count_type.has_value())
-            fail_on_header(file,
-                           fmt::format("the property {} of {} as a {}", in_quotes(property.name),
-                                       name, property.count_type ? "list" : "number"),
-                           "x, y, z, nx, ny, nz are numbers, vertex_indices is a list");
-    }
-    if (holds_triangles(element) && lists != 1)
-        fail_on_header(file, fmt::format("{} with {} lists of vertices", name, lists),
-                       "a face or strip has one list, vertex_indices or vertex_index");
-    if (element.name != "vertex") return;
-    if (element.count >= MeshCorner::no_normal)
-        fail_on_header(file, fmt::format("{} vertices", element.count),
-                       fmt::format("a mesh has less than {} vertices", MeshCorner::no_normal));
-    if (count_of(element, 0) != 3)
-        fail_on_header(file, name + " without x, y or z", "a vertex has x, y and z");
-    if (count_of(element, 3) % 3 != 0)
-        fail_on_header(file, name + " with a part of a normal",
-                       "a normal is nx, ny and nz, all three or none");
-}
-
-void require_elements(const PlyHeader& header, const std::filesystem::path& file)
-{
-    const auto has = [&](const auto& rule) {
-        return std::any_of(header.elements.begin(), header.elements.end(), rule);
-    };
-    if (!has([](const PlyElement& e) { return e.name == "vertex"; }) || !has(holds_triangles))
-        fail_on_header(file, "a header without vertices, or without faces",
-                       "a mesh has the elements vertex, and face or tristrips");
-}
-
-/// Bytes that a row takes at least; in text a digit and a blank or line end for each number.
-std::size_t least_bytes(const PlyElement& element, bool is_text)
-{
-    constexpr std::size_t least_corners = 3;
-    std::size_t bytes = 0;
-    for (const PlyProperty& p : element.properties) {
-        const auto bytes_as = [&](PlyType type) { return is_text ? 2 : bytes_of(type); };
-        bytes += bytes_as(p.count_type.value_or(p.type));
-        if (element.name == "face" && is_index_list(p)) bytes += least_corners * bytes_as(p.type);
-    }
-    return bytes;
-}
-
-/// The header's counts say how much is kept, so they are held against the file first.
-void require_long_enough(const PlyHeader& header, std::size_t there,
-                         const std::filesystem::path& file)
-{
-    const bool is_text = header.format == PlyFormat::ascii;
-    std::size_t least = 0;
-    for (const PlyElement& element : header.elements)
-        least += element.count * least_bytes(element, is_text);
-    least -= is_text && least > 0 ? 1 : 0;  // the last line may do without its end
-    if (there < least)
-        fail_on_header(file,
-                       fmt::format("a PLY file that ends early: {} of at least {} bytes after its "
-                                   "header",
-                                   there, least),
-                       "a body is as long as its header says");
-}
 
 template <class Values> class BodyReader {
 public:
@@ -153,7 +44,7 @@ private:
         for (const PlyProperty& p : element.properties) roles.push_back(role_of(element, p));
         const bool is_vertex = element.name == "vertex";
         is_strip_ = element.name == "tristrips";
-        const bool has_normals = is_vertex && count_of(element, 3) == 3;
+        const bool has_normals = is_vertex && has_vertex_normals(element);
         if (is_vertex) mesh_.positions.reserve(element.count);
         if (has_normals) mesh_.normals.reserve(element.count);
         if (element.properties.empty()) return;
@@ -170,12 +61,12 @@ private:
     void read(const PlyProperty& property, int role)
     {
         if (!property.count_type) {
-            if (role == Role::ignored) values_.skip(property.type, 1);
+            if (role == ply_role::ignored) values_.skip(property.type, 1);
             else numbers_[static_cast<std::size_t>(role)] = coordinate(property);
             return;
         }
         const std::size_t count = list_length(*property.count_type);
-        if (role == Role::ignored) {
+        if (role == ply_role::ignored) {
             values_.skip(property.type, count);
             return;
         }
@@ -282,9 +173,7 @@ private:
 void read_ply(ByteSource& source, const std::filesystem::path& file, MeshBuilder& mesh)
 {
     const PlyHeader header = read_ply_header(source, file);
-    for (const PlyElement& element : header.elements) require_properties(element, file);
-    require_elements(header, file);
-    require_long_enough(header, source.left(), file);
+    require_mesh_header(header, source.left(), file);
     if (header.format == PlyFormat::ascii)
         BodyReader(TextPlyValues(source, header, file), header, mesh).read();
     else BodyReader(BinaryPlyValues(source, header, file), header, mesh).read();

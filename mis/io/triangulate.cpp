@@ -8,12 +8,15 @@
 namespace mis {
 namespace {
 
-/// A bound of what rounding adds to the cross product of two differences: each of the two is off by
-/// a few steps of the coordinates.
-double cross_rounding(double largest, double length_a, double length_b)
+/// How far a coordinate may be off, relative to the largest one: some steps of a double, or what
+/// six digits or single precision round away.
+constexpr double double_rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double six_digits = 1e-6;
+
+/// A bound of what that adds to the cross product of two differences of coordinates.
+double cross_rounding(double off, double length_a, double length_b)
 {
-    constexpr double steps = 8;
-    return steps * std::numeric_limits<double>::epsilon() * largest * (length_a + length_b);
+    return off * (length_a + length_b);
 }
 
 double largest_of(const Vec3<double>& v)
@@ -21,10 +24,18 @@ double largest_of(const Vec3<double>& v)
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
+double largest_coordinate(std::span<const Vec3<double>> points)
+{
+    double largest = 0;
+    for (const Vec3<double>& p : points) largest = std::max(largest, largest_of(p));
+    return largest;
+}
+
 /// The plane polygon that one sees along its mean normal, counter-clockwise, its first corner at 0.
 class View {
 public:
-    explicit View(std::span<const Vec3<double>> polygon) : largest_(largest_coordinate(polygon))
+    View(std::span<const Vec3<double>> polygon, double rounding)
+        : off_(rounding * largest_coordinate(polygon))
     {
         const Vec3<double>& origin = polygon[0];
         Vec3<double> normal(0);
@@ -32,7 +43,7 @@ public:
         for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
             const Vec3<double> a = polygon[i] - origin, b = polygon[i + 1] - origin;
             normal += cross(a, b);
-            bound += cross_rounding(largest_, largest_of(a), largest_of(b));
+            bound += cross_rounding(off_, largest_of(a), largest_of(b));
         }
         if (!(largest_of(normal) > bound)) return;
         project(polygon, normal);
@@ -46,7 +57,7 @@ public:
     {
         const Vec2<double> u = points_[b] - points_[a], v = points_[c] - points_[a];
         const double area = u.x * v.y - u.y * v.x;
-        const double bound = cross_rounding(largest_, std::max(std::abs(u.x), std::abs(u.y)),
+        const double bound = cross_rounding(off_, std::max(std::abs(u.x), std::abs(u.y)),
                                             std::max(std::abs(v.x), std::abs(v.y)));
         return area > bound ? 1 : area < -bound ? -1 : 0;
     }
@@ -68,7 +79,7 @@ private:
         }
     }
 
-    double largest_;
+    double off_;  ///< how far a coordinate may be off
     std::vector<Vec2<double>> points_;
 };
 
@@ -230,35 +241,46 @@ bool halve(const View& view, std::vector<PolygonTriangle>& triangles)
     return true;
 }
 
-/// Whether no three corners span a triangle with the first.
-bool is_on_a_line(std::span<const Vec3<double>> polygon)
+/// Normal times twice the area of a triangle; 0 within the rounding of coordinates that are off by
+/// so much.
+Vec3<double> area_beyond(double off, const Vec3<double>& a, const Vec3<double>& b,
+                         const Vec3<double>& c)
 {
-    const double largest = largest_coordinate(polygon);
+    const Vec3<double> u = b - a, v = c - a, area = cross(u, v);
+    return largest_of(area) > cross_rounding(off, largest_of(u), largest_of(v)) ? area
+                                                                                : Vec3<double>(0);
+}
+
+/// Whether no three corners span a triangle with the first.
+bool is_on_a_line(std::span<const Vec3<double>> polygon, double rounding)
+{
+    const double off = rounding * largest_coordinate(polygon);
     const auto farthest = std::max_element(
         polygon.begin(), polygon.end(), [&](const Vec3<double>& a, const Vec3<double>& b) {
             return length(a - polygon[0]) < length(b - polygon[0]);
         });
     return std::all_of(polygon.begin(), polygon.end(), [&](const Vec3<double>& p) {
-        return area_vector(polygon[0], *farthest, p, largest) == Vec3<double>(0);
+        return area_beyond(off, polygon[0], *farthest, p) == Vec3<double>(0);
     });
+}
+
+/// triangulate() of coordinates that are rounded so.
+bool cut(std::span<const Vec3<double>> polygon, double rounding,
+         std::vector<PolygonTriangle>& triangles, const StopToken& stop)
+{
+    triangles.clear();
+    const View view(polygon, rounding);
+    if (!view.has_area()) return is_on_a_line(polygon, rounding);
+    if (polygon.size() == 4) return halve(view, triangles);
+    return EarClipper(view, triangles, stop).clip_all();
 }
 
 }  // namespace
 
-double largest_coordinate(std::span<const Vec3<double>> points)
+Vec3<double> area_vector(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c)
 {
-    double largest = 0;
-    for (const Vec3<double>& p : points) largest = std::max(largest, largest_of(p));
-    return largest;
-}
-
-Vec3<double> area_vector(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c,
-                         double largest)
-{
-    const Vec3<double> u = b - a, v = c - a, area = cross(u, v);
-    return largest_of(area) > cross_rounding(largest, largest_of(u), largest_of(v))
-               ? area
-               : Vec3<double>(0);
+    const double largest = std::max({largest_of(a), largest_of(b), largest_of(c)});
+    return area_beyond(double_rounding * largest, a, b, c);
 }
 
 bool triangulate(std::span<const Vec3<double>> polygon, std::vector<PolygonTriangle>& triangles,
@@ -270,10 +292,8 @@ bool triangulate(std::span<const Vec3<double>> polygon, std::vector<PolygonTrian
         triangles.push_back({0, 1, 2});
         return true;
     }
-    const View view(polygon);
-    if (!view.has_area()) return is_on_a_line(polygon);
-    if (polygon.size() == 4) return halve(view, triangles);
-    return EarClipper(view, triangles, stop).clip_all();
+    return cut(polygon, double_rounding, triangles, stop) ||
+           cut(polygon, six_digits, triangles, stop);
 }
 
 }  // namespace mis

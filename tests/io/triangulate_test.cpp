@@ -187,6 +187,29 @@ TEST(Triangulate, RefusesWhatCrossesItself)
     }
 }
 
+/// A sphere of quads in single precision: the sine of its π is below 0, so the last ring is turned
+/// over, by 1e-7.
+TEST(Triangulate, TakesWhatCrossesWithinSixDigitsForTouching)
+{
+    std::vector<PolygonTriangle> triangles;
+    const auto ring = [](float theta, float phi) {
+        return Vec3<double>{double(std::sin(theta) * std::cos(phi)),
+                            double(std::sin(theta) * std::sin(phi)), double(std::cos(theta))};
+    };
+    const float pi = 3.14159274f;
+    const Polygon quad{ring(3.0f, 0.1f), ring(3.0f, 0.2f), ring(pi, 0.2f), ring(pi, 0.1f)};
+    ASSERT_TRUE(triangulate(quad, triangles));
+    ASSERT_EQ(triangles.size(), 1u);
+    Polygon many = quad;
+    many.insert(many.begin() + 1, ring(3.0f, 0.15f));
+    ASSERT_TRUE(triangulate(many, triangles));
+    ASSERT_GE(triangles.size(), 1u);
+    EXPECT_TRUE(triangulate(
+        Polygon{{0.1f, 0.2f, 0.3f}, {0.3f, 0.6f, 0.9f}, {0.2f, 0.4f, 0.6f}, {0.7f, 1.4f, 2.1f}},
+        triangles));
+    EXPECT_TRUE(triangles.empty());
+}
+
 TEST(Triangulate, StopsWhenToldTo)
 {
     std::vector<std::array<double, 2>> outline;
