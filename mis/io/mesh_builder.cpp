@@ -112,7 +112,9 @@ std::size_t MeshBuilder::slot_of(const Vec3<double>& position, const Vec3<float>
 
 void MeshBuilder::add_slots()
 {
-    slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), free_slot);
+    // As a rule the file's positions are all there before the first face, and become a vertex each.
+    const std::size_t expected = std::max(positions.size(), mesh_.positions.size());
+    slots_.assign(std::bit_ceil(2 * std::max<std::size_t>(512, expected + 1)), free_slot);
     for (std::size_t v = 0; v < mesh_.positions.size(); ++v)
         slots_[slot_of(mesh_.positions[v], has_normals_ ? mesh_.normals[v] : Vec3<float>(0))] =
             static_cast<std::uint32_t>(v);
