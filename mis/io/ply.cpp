@@ -2,6 +2,7 @@
 
 #include "mis/io/ply_schema.h"
 #include "mis/io/ply_values.h"
+#include "mis/io/text_file.h"
 
 #include <fmt/format.h>
 
