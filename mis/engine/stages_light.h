@@ -123,7 +123,7 @@ template <class V, class T> MIS_INLINE Cap<V> cap_of_row(const Batch<T>& batch, 
     return cap_towards(batch.to_center.template get<V>(row), lanes_of<V>(batch.radius, row), gap2);
 }
 
-/// light, u, v → wi, offset, distance, light_pdf, radiance over the pdf of the cap.
+/// light, u, v → wi, offset, cos_theta, distance, light_pdf, radiance over the pdf of the cap.
 template <class V, class Technique, class T> void draw_light(const TileJob<T>& job, Batch<T>& batch)
 {
     fetch_light(job, batch);
@@ -134,10 +134,11 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
         const CapDraw<V> draw = Technique::draw(cap, n, u);
         batch.wi.set(row, draw.wi);
         batch.offset.set(row, draw.offset);
+        set_lanes(batch.cos_theta, row, draw.cos_theta);
         set_lanes(batch.distance, row, draw.distance);
         // As pdf_of_light does it for the other half, to the last bit: or both halves of `maximum`
         // could think the other's density the larger.
-        const V pdf = Technique::pdf(cap, n, V(dot(n, draw.wi)));
+        const V pdf = Technique::pdf(cap, n, draw.cos_theta);
         set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
         // 1/pdf = sin² · inverse_pdf_sin2, taken one sine at a time: the square of a tiny radius is
         // no normal number.
@@ -147,17 +148,17 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
     });
 }
 
-/// light, wi → light_pdf, and the radiance of the light in `radiance`: for a direction that another
-/// technique drew.
+/// light, cos_theta → light_pdf, and the radiance of the light in `radiance`: for a direction that
+/// another technique drew.
 template <class V, class Technique, class T>
 void pdf_of_light(const TileJob<T>& job, Batch<T>& batch)
 {
     fetch_light(job, batch);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Cap<V> cap = cap_of_row<V>(batch, row);
-        const Vec3<V> n = batch.n.template get<V>(row), wi = batch.wi.template get<V>(row);
-        set_lanes(batch.light_pdf, row,
-                  V(lanes_of<V>(batch.probability, row) * Technique::pdf(cap, n, V(dot(n, wi)))));
+        const Vec3<V> n = batch.n.template get<V>(row);
+        const V pdf = Technique::pdf(cap, n, V(lanes_of<V>(batch.cos_theta, row)));
+        set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
         const V inverse_radius = number<V>(1) / cap.radius;
         batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) * inverse_radius));
     });

@@ -49,6 +49,7 @@ template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
         batch.n.put(row, {0, 0, 1});
         batch.wo.put(row, {0, 0, 1});
         batch.wi.put(row, {0, 0, 1});
+        batch.cos_theta[i] = T(1);
         batch.u[i] = batch.v[i] = batch.lobe[i] = T(0.5);
     }
 }
@@ -86,6 +87,7 @@ template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
         batch.n.put(to_row, batch.n.at(row));
         batch.wo.put(to_row, batch.wo.at(row));
         batch.wi.put(to_row, batch.wi.at(row));
+        batch.cos_theta[to] = batch.cos_theta[from];
     }
 }
 
