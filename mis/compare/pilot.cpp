@@ -1,5 +1,6 @@
 #include "mis/compare/pilot.h"
 
+#include "mis/compare/exactness.h"
 #include "mis/compare/pool.h"
 
 #include <algorithm>
@@ -24,15 +25,17 @@ StrategyRun sampled(const StudyGround& ground, const Strategy& strategy, int sam
 void add_benefit(std::vector<double>& benefit, const StrategyRun& run, const StudyPoints& points)
 {
     std::vector<double> fourth(benefit.size());
-    double variance = 0;
+    double variance = 0, squares = 0;
     for (std::size_t t = 0; t < benefit.size(); ++t) {
         const Tile& tile = points.shading.tiles[t];
         for (const PointResult& result : run.results().subspan(tile.first, tile.count)) {
             variance += result.luminance.variance();
+            squares += result.luminance.mean * result.luminance.mean;
             fourth[t] += result.luminance.m4;
         }
     }
-    if (!(variance > 0)) return;
+    const double of_rounding = rounding_of_samples * rounding_of_samples * squares;
+    if (!(variance > of_rounding)) return;  // exact, as it seems: it needs no more samples anywhere
     for (std::size_t t = 0; t < benefit.size(); ++t)
         benefit[t] += fourth[t] / (variance * variance);
 }

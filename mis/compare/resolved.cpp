@@ -1,6 +1,7 @@
 #include "mis/compare/resolved.h"
 
 #include "mis/compare/estimate.h"
+#include "mis/compare/exactness.h"
 #include "mis/compare/words.h"
 
 #include <algorithm>
@@ -33,6 +34,12 @@ struct Check {
     }
 };
 
+/// A proof that its samples bear out: an estimate cannot refute it.
+bool is_exact_by_proof(const StrategyMeasurements& s)
+{
+    return s.is_proved_exact && s.all_samples_equal_reference;
+}
+
 /// What the audit has against its variance, or its relative variance; nothing where it has nothing,
 /// or where there was none.
 std::optional<Check> variance_fault(const StrategyMeasurements& s)
@@ -56,6 +63,7 @@ std::optional<Check> relative_fault(const StrategyMeasurements& s)
 }
 std::optional<Check> audit_fault(const StrategyMeasurements& s)
 {
+    if (is_exact_by_proof(s)) return std::nullopt;
     const std::optional<Check> fault = variance_fault(s);
     return fault ? fault : relative_fault(s);
 }
@@ -103,8 +111,9 @@ double resolving_factor(const StrategyMeasurements& s)
 
 AuditedGrowth audited_growth(const StrategyMeasurements& s)
 {
-    const auto growth = [](const std::optional<Check>& fault) {
-        return fault && fault->own > 0 ? fault->at_least() / fault->own : 1;
+    const auto growth = [&s](const std::optional<Check>& fault) {
+        return !is_exact_by_proof(s) && fault && fault->own > 0 ? fault->at_least() / fault->own
+                                                                : 1;
     };
     return {growth(variance_fault(s)), growth(relative_fault(s))};
 }
@@ -119,6 +128,18 @@ std::string why_blind(const StrategyMeasurements& s)
 
 namespace {
 
+/// Where its samples differ by rounding alone, and it is not exact for all that.
+std::string why_not_exact(const StrategyMeasurements& s)
+{
+    const std::string found = "its samples differ by the rounding of floats alone, ";
+    if (s.pooled.zero_points > 0)
+        return found + "but at " + count(static_cast<double>(s.pooled.zero_points)) +
+               (s.pooled.zero_points == 1 ? " point" : " points") +
+               " all of them are 0, which proves nothing: rare samples may not have been "
+               "drawn yet";
+    return found + "which shows no variance and does not prove that there is none";
+}
+
 std::string why_not(const StrategyMeasurements& s, bool is_relative_asked)
 {
     const PooledFigures& pooled = s.pooled;
@@ -128,6 +149,7 @@ std::string why_not(const StrategyMeasurements& s, bool is_relative_asked)
     if (!std::isfinite(pooled.variance) || !std::isfinite(pooled.mean))
         return "its variance is not a finite number";
     if (pooled.variance <= 0) return why_blind(s);
+    if (is_within_rounding(pooled)) return why_not_exact(s);
     if (pooled.participation.number() < least_participation_to_rank)
         return carried_by_few(pooled.participation, s, "variance");
     if (is_relative_asked && pooled.relative_participation.sum_d4 > 0 &&

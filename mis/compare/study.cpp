@@ -1,12 +1,14 @@
 #include "mis/compare/study.h"
 
 #include "mis/compare/affordable.h"
+#include "mis/compare/exactness.h"
 #include "mis/compare/pool.h"
 #include "mis/compare/resolved.h"
 #include "mis/compare/savings.h"
 #include "mis/compare/schedule.h"
 #include "mis/compare/study_audit.h"
 #include "mis/compare/words.h"
+#include "mis/engine/exact.h"
 #include "mis/engine/stopwatch.h"
 #include "mis/strategy/names.h"
 
@@ -77,7 +79,19 @@ private:
         const GBuffer& shading = study_.points->shading;
         report.effects = explained(scene, scene_.effects(),
                                    scene_.tiles_that_call(shading).of(shading.tiles.size()));
+        prove_closed_form();
         measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report.effects);
+    }
+
+    /// Asked only where some strategy would be exact then.
+    void prove_closed_form()
+    {
+        const auto would_be_exact = [&](const Strategy& s) {
+            return gives_closed_form(scene_.scene(), s);
+        };
+        has_closed_form_ =
+            std::ranges::any_of(strategies_, would_be_exact) &&
+            has_closed_form(scene_, study_.points->shading, study_.points->figure_tiles, executor_);
     }
 
     /// What a first look at the costs allows; a rough picture of the scene, for the weights; how
@@ -396,8 +410,10 @@ private:
             return m;
         }
         StrategyMeasurements m = study_.runs[s]->measurements(scale);
-        m.all_samples_equal_reference = is_dark();
         if (audit_) audit_->add_to(m, study_.runs[s]->results());
+        m.is_proved_exact =
+            is_dark() || (has_closed_form_ && gives_closed_form(scene_.scene(), strategies_[s]));
+        m.all_samples_equal_reference = exactness_of(m) != Exactness::none;
         return m;
     }
 
@@ -435,8 +451,9 @@ private:
     ErrorSpending spending_;
     std::vector<CostEstimate> costs_;
     std::vector<bool> rests_;
-    std::vector<bool> trusted_;  ///< [strategy]: do its means count in the reference?
-    bool spreads_ = false;       ///< samples over tiles
+    std::vector<bool> trusted_;     ///< [strategy]: do its means count in the reference?
+    bool spreads_ = false;          ///< samples over tiles
+    bool has_closed_form_ = false;  ///< at every point of the figures: proved
     std::vector<double> weights_, tile_factors_;
     std::optional<StudyAudit> audit_;
 };

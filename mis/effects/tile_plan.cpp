@@ -233,12 +233,18 @@ void TilePlanner::prove_each(const TileBounds& tile, TilePlan& plan) const
     plan.shadows = shadows, plan.light_occlusion = light_occlusion;
 }
 
+/// Few enough pairs of a light and a surface?
+bool TilePlanner::can_prove_each() const
+{
+    return scene_->lights.size() * std::max<std::size_t>(bodies_.size(), 1) <= most_surface_pairs;
+}
+
 /// Few enough pairs of a light and a surface; and where it is known how many samples are to come,
 /// no more than some hundredths of the time that these take.
 bool TilePlanner::pays_to_prove_each(std::size_t points) const
 {
+    if (!can_prove_each()) return false;
     const std::size_t pairs = scene_->lights.size() * std::max<std::size_t>(bodies_.size(), 1);
-    if (pairs > most_surface_pairs) return false;
     const double samples = budget_->expected_samples() * static_cast<double>(points);
     constexpr double samples_per_pair = 16;  // a pair takes some hundredths of their time
     return samples <= 0 || static_cast<double>(pairs) * samples_per_pair <= samples;
@@ -246,13 +252,23 @@ bool TilePlanner::pays_to_prove_each(std::size_t points) const
 
 TilePlan TilePlanner::plan(std::span<const ShadingPoint> points) const
 {
+    return plan(points, pays_to_prove_each(points.size()));
+}
+
+TilePlan TilePlanner::proved(std::span<const ShadingPoint> points) const
+{
+    return plan(points, can_prove_each());
+}
+
+TilePlan TilePlanner::plan(std::span<const ShadingPoint> points, bool proves_each) const
+{
     const TileBounds tile = bounds_of(points);
     TilePlan plan{effects_.shadows,
                   effects_.light_occlusion,
                   effects_.horizon && !are_lights_above(tile),
                   {},
                   nullptr};
-    if (pays_to_prove_each(points.size())) prove_each(tile, plan);
+    if (proves_each) prove_each(tile, plan);
     else prove_all_at_once(tile, plan);
     if (plan.light_occlusion)
         plan.blockers = Blockers::of(spheres_, scene_->lights, points, budget_);

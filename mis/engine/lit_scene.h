@@ -40,6 +40,9 @@ public:
     }
     /// What is simulated on surfaces of a material.
     Effects effects(int material) const;
+    /// What a tile of these points calls for, by all that can be proved of it, whatever is
+    /// simulated.
+    TilePlan proved(std::span<const ShadingPoint> points) const { return planner_.proved(points); }
     /// How many of a buffer's tiles call for an effect.
     EffectShares tiles_that_call(const GBuffer& buffer) const;
     /// A view of a material's BSDF.

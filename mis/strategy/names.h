@@ -25,4 +25,10 @@ bool draws_every_light(std::string_view policy);
 /// Does this policy look at all lights at every shading point, in time linear in their number?
 bool reads_all_lights(std::string_view policy);
 
+/// Does it weigh lights by what they would give a surface without a lobe that nothing shades?
+bool weighs_by_irradiance(std::string_view policy);
+
+/// Does this technique draw a light's directions in proportion to their cosine?
+bool draws_by_irradiance(std::string_view technique);
+
 }  // namespace mis

@@ -113,6 +113,24 @@ bool reads_all_lights(std::string_view policy)
     return looks;
 }
 
+bool weighs_by_irradiance(std::string_view policy)
+{
+    bool weighs = false;
+    for_each_type(Policies{}, [&]<class P>() {
+        if constexpr (requires { P::weighs_by_irradiance; }) weighs = weighs || P::name == policy;
+    });
+    return weighs;
+}
+
+bool draws_by_irradiance(std::string_view technique)
+{
+    bool draws = false;
+    for_each_type(Techniques{}, [&]<class K>() {
+        if constexpr (requires { K::draws_by_irradiance; }) draws = draws || K::name == technique;
+    });
+    return draws;
+}
+
 const std::vector<Choosable>& policy_names()
 {
     static const std::vector<Choosable> names = listed(Policies{});
