@@ -1,5 +1,6 @@
 #include "mis/compare/changes.h"
 #include "mis/cli/commands.h"
+#include "mis/cli/interrupt.h"
 #include "mis/compare/words.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/changes_json.h"
@@ -48,8 +49,8 @@ int run_changes(const CompareOptions& options)
     check_changes(options);
     ChangesOptions how;
     if (options.fail_on_regression) how.worse_by = *options.fail_on_regression / 100;
-    const Changes changes =
-        changes_between(read_report(options.scenes[0]), read_report(options.scenes[1]), how);
+    const Changes changes = changes_between(read_report(options.scenes[0], interrupt_token()),
+                                            read_report(options.scenes[1], interrupt_token()), how);
     if (options.fail_on_regression && changes.comparisons == 0 && !changes.has_regression())
         throw UsageError(fmt::format(
             "--fail-on-regression: found no figure that is in both {} and {}\n    Two "

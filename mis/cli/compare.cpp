@@ -112,7 +112,6 @@ int run_compare(const CompareOptions& options)
 
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
     std::vector<std::optional<Maps>> maps;
-    watch_for_interrupt();
     Progress progress(!options.run.quiet);
     if (options.scenes.size() > 1)  // a wrong one is found before the first is measured
         for (const std::string& file : options.scenes)

@@ -80,7 +80,6 @@ int run_cost(const CostCommandOptions& options)
     check_memory(ready.scene, strategies_of_reference);
     if (!options.run.quiet)
         for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
-    watch_for_interrupt();
     Progress progress(!options.run.quiet);
     CostReport report{.version = MIS_VERSION,
                       .command = options.run.command_line,

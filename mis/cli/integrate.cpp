@@ -246,7 +246,6 @@ int run_integrate(const IntegrateOptions& options)
                           .samples = samples_of(options),
                           .densities = entries_of(options)};
     check(options.output);
-    watch_for_interrupt();
     const Console console(options.output);
     console.print(fmt::format("∫ cos θ dω over the hemisphere = π = {:.6f}, seed {}\n",
                               hemisphere_integral, options.seed));

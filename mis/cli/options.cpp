@@ -1,5 +1,6 @@
 #include "mis/cli/options.h"
 
+#include "mis/cli/interrupt.h"
 #include "mis/effects/effects.h"
 #include "mis/io/scene_json.h"
 #include "mis/run/tbb.h"
@@ -110,7 +111,7 @@ Scene read_scene_for(const std::string& file, const RunOptions& options)
     const std::optional<std::array<int, 2>> resolution =
         options.resolution.empty() ? std::nullopt
                                    : std::optional(parse_resolution(options.resolution));
-    Scene scene = read_scene(file);
+    Scene scene = read_scene(file, interrupt_token());
     if (resolution) {
         if (!scene.camera)
             throw UsageError("--resolution: " + file + " has no camera, so it has no picture");

@@ -72,7 +72,6 @@ int run_predict(const PredictOptions& options)
                          "    Add \"probes\" to the scene (docs/scene-format.md).");
     if (!options.quiet)
         for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
-    watch_for_interrupt();
     PredictReport report{
         .version = MIS_VERSION, .command = options.command_line, .threads = executor.threads};
     report.scenes.push_back(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/cli/interrupt.h"
 #include "mis/cli/options.h"
 #include "mis/compare/explain.h"
 #include "mis/engine/lit_scene.h"
@@ -18,9 +19,9 @@ struct ReadyScene {
         : executor(make_executor(options)), scene(read_scene_for(file, options)),
           tracer(scene.surfaces.empty() && options.effects != "all"
                      ? nullptr
-                     : std::make_unique<EmbreeTracer>(scene)),
+                     : std::make_unique<EmbreeTracer>(scene, interrupt_token())),
           lit(scene, tracer.get(),
-              options.effects == "all" ? all_effects(scene) : called_for(scene))
+              options.effects == "all" ? all_effects(scene) : called_for(scene), interrupt_token())
     {
         if (const std::string name = effect_off(options); !name.empty()) require_off(name);
     }
@@ -30,12 +31,15 @@ struct ReadyScene {
     /// Throws UsageError where some tile calls for that effect.
     void require_off(const std::string& name) const
     {
-        for (const EffectPlan& plan : explain(lit, executor).effects)
+        for (const EffectPlan& plan : explain(lit, stoppable_executor()).effects)
             if (plan.name == name && plan.on)
                 throw UsageError(
                     fmt::format("--effects {}=off: {:.3g} % of the tiles of {} call for it: {}",
                                 name, 100 * plan.share, scene.file, plan.why));
     }
+
+    /// For work that is worth nothing before it is done: throws Stopped once interrupted.
+    AnyExecutor stoppable_executor() const { return stoppable(executor, interrupt_token()); }
 
     AnyExecutor executor;
     Scene scene;

@@ -99,12 +99,13 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     const int height = outcome.image.height, band_rows = rows_of_band(*ready.scene.camera);
     ExactShare share;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
-        Band band = find_band(ready.lit, row, std::min(band_rows, height - row), ready.executor);
+        Band band = find_band(ready.lit, row, std::min(band_rows, height - row),
+                              ready.stoppable_executor());
         const ExactShare here = exact_share(ready.lit, band.shading);
         share.exact += here.exact, share.points += here.points;
         share.exact_tiles += here.exact_tiles, share.tiles += here.tiles;
         if (share.is_all()) {
-            light_exactly(ready.lit, band, ready.executor);
+            light_exactly(ready.lit, band, ready.stoppable_executor());
             draw_band(ready.lit, band, outcome.image);
         }
         progress.show("rendering", (row + double(band.shading.rows)) / height);
@@ -132,7 +133,8 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
     outcome.samples = spp;
     WorkspacePool<float> workspaces;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
-        Band band = find_band(ready.lit, row, std::min(band_rows, height - row), ready.executor);
+        Band band = find_band(ready.lit, row, std::min(band_rows, height - row),
+                              ready.stoppable_executor());
         constexpr std::uint64_t step = 16;
         std::uint64_t sampled = 0;
         for (std::uint64_t s = 0; s < spp && !outcome.is_partial; s += step) {
@@ -167,7 +169,7 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     Outcome outcome;
     outcome.image = black_picture(*ready.scene.camera);
     WorkspacePool<float> workspaces;
-    Band band = find_band(ready.lit, 0, outcome.image.height, ready.executor);
+    Band band = find_band(ready.lit, 0, outcome.image.height, ready.stoppable_executor());
     outcome.shading_points = band.results.size() + band.shading.dark.size();
     int count = 4;
     bool is_done = false;
@@ -282,7 +284,6 @@ int run_render(const RenderOptions& options)
     const ReadyScene ready(options.scene, options.run);
     if (!ready.scene.camera)
         throw UsageError(options.scene + ": found no camera; a picture needs one");
-    watch_for_interrupt();
     Progress progress(!options.run.quiet);
     const auto start = std::chrono::steady_clock::now();
     const Outcome outcome =

@@ -94,7 +94,7 @@ int run_replay(const ReplayOptions& options)
     check_at(options);
     const Strategy strategy = parse_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
-    const StudyPoints points = find_study_points(ready.lit, ready.executor);
+    const StudyPoints points = find_study_points(ready.lit, ready.stoppable_executor());
     const Found found = find_point(points, options.point, options.scene);
     const Vec3<double>& x = found.point->x;
     fmt::print("{}: {}, point {} at {:.6g} {:.6g} {:.6g}, sample {}, seed {}, {}\n", options.scene,

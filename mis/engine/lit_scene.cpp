@@ -7,8 +7,9 @@
 
 namespace mis {
 
-LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects)
-    : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights),
+LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects,
+                   const StopToken& stop)
+    : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights, stop),
       planner_(scene, hierarchy_, effects,
                surfaces != nullptr ? surfaces->origin() : Vec3<double>(0)),
       has_grey_lights_(are_grey(scene.lights))

@@ -5,6 +5,7 @@
 #include "mis/effects/tile_plan.h"
 #include "mis/engine/gbuffer.h"
 #include "mis/engine/tile.h"
+#include "mis/math/stop_token.h"
 #include "mis/run/pool.h"
 #include "mis/scene/scene.h"
 #include "mis/trace/lights.h"
@@ -19,8 +20,9 @@ namespace mis {
 /// surfaces. Keeps references to the scene and the tracer.
 class LitScene {
 public:
-    /// surfaces: nullptr where the scene has none.
-    LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects);
+    /// surfaces: nullptr where the scene has none. Throws Stopped.
+    LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects,
+             const StopToken& stop = {});
 
     /// What it was made of.
     const Scene& scene() const { return *scene_; }

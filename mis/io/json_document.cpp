@@ -8,10 +8,43 @@
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace mis {
 namespace {
+
+/// A text for the parser, which asks the token now and then: a gigabyte of blanks makes no event.
+class StoppableText {
+public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    StoppableText(const char* at, const StopToken& stop) : at_(at), stop_(&stop) {}
+    reference operator*() const { return *at_; }
+    StoppableText& operator++()
+    {
+        constexpr std::uintptr_t often = 1 << 16;
+        if (reinterpret_cast<std::uintptr_t>(++at_) % often == 0) stop_->check();
+        return *this;
+    }
+    StoppableText operator++(int)
+    {
+        const StoppableText before = *this;
+        ++*this;
+        return before;
+    }
+    bool operator==(const StoppableText& other) const { return at_ == other.at_; }
+    bool operator!=(const StoppableText& other) const { return at_ != other.at_; }
+
+private:
+    const char* at_;
+    const StopToken* stop_;
+};
 
 /// Builds the document event by event, so that what nlohmann's own parser lets pass is seen: a key
 /// given twice, a number that rounds to 0, nesting without end.
@@ -211,12 +244,14 @@ private:
 }  // namespace
 
 Json parse_json(std::string_view text, const std::filesystem::path& file,
-                std::string_view streamed_list, const ElementSink& sink)
+                std::string_view streamed_list, const ElementSink& sink, const StopToken& stop)
 {
-    require_utf8(text, file);
+    require_utf8(text, file, stop);
     DocumentBuilder builder(text, file, streamed_list, sink);
     constexpr bool strict = true, ignore_comments = true;
-    Json::sax_parse(text, &builder, Json::input_format_t::json, strict, ignore_comments);
+    Json::sax_parse(StoppableText(text.data(), stop),
+                    StoppableText(text.data() + text.size(), stop), &builder,
+                    Json::input_format_t::json, strict, ignore_comments);
     return builder.take_document();
 }
 

@@ -250,9 +250,10 @@ OverallReport read_overall(const JsonNode& node)
 
 }  // namespace
 
-Report parse_report(std::string_view content, const std::filesystem::path& file)
+Report parse_report(std::string_view content, const std::filesystem::path& file,
+                    const StopToken& stop)
 {
-    const Json document = parse_json(content, file, "", {});
+    const Json document = parse_json(content, file, "", {}, stop);
     const std::string name = file.string();
     const JsonNode root(document, name, guide);
     if (root["format"].string() != report_format)
@@ -273,9 +274,9 @@ Report parse_report(std::string_view content, const std::filesystem::path& file)
     return report;
 }
 
-Report read_report(const std::filesystem::path& file)
+Report read_report(const std::filesystem::path& file, const StopToken& stop)
 {
-    return parse_report(read_text_file(file, "report"), file);
+    return parse_report(read_text_file(file, "report", stop), file, stop);
 }
 
 }  // namespace mis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/compare/report.h"
+#include "mis/math/stop_token.h"
 
 #include <filesystem>
 #include <string_view>
@@ -9,10 +10,12 @@ namespace mis {
 
 /// The report in a file that report_json wrote (`mis-report/1`, docs/report-format.md). null is
 /// NaN: not known. Keys that are not known are passed over, as later versions may add some;
-/// sentences are not read, and neither is what they alone say (first_invalid). Throws SceneError.
-Report read_report(const std::filesystem::path& file);
+/// sentences are not read, and neither is what they alone say (first_invalid). Throws SceneError
+/// and Stopped.
+Report read_report(const std::filesystem::path& file, const StopToken& stop = {});
 
 /// The same of a text. `file` is for messages.
-Report parse_report(std::string_view text, const std::filesystem::path& file);
+Report parse_report(std::string_view text, const std::filesystem::path& file,
+                    const StopToken& stop = {});
 
 }  // namespace mis

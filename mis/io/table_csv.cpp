@@ -38,9 +38,10 @@ std::string_view take_until(char separator, std::string_view& rest)
 using Fields = std::array<std::string_view, column_count>;
 
 /// The number of fields of a row; those that fit go to `fields`.
-std::size_t split(std::string_view row, Fields& fields)
+std::size_t split(std::string_view row, Fields& fields, StopEvery& check)
 {
     for (std::size_t count = 1;; ++count) {
+        check();
         const std::size_t end = row.find(',');
         if (count <= fields.size()) fields[count - 1] = row.substr(0, end);
         if (end == row.npos) return count;
@@ -51,13 +52,16 @@ std::size_t split(std::string_view row, Fields& fields)
 /// Reads one table, line by line.
 class TableReader {
 public:
-    TableReader(std::string_view text, const std::filesystem::path& file) : rest_(text), file_(file)
+    TableReader(std::string_view text, const std::filesystem::path& file, const StopToken& stop)
+        : rest_(text), file_(file), check_(stop, 1 << 14)
     {
         constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
         if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
         while (!rest_.empty() &&
-               std::string_view(" \t\r\n").find(rest_.back()) != std::string_view::npos)
+               std::string_view(" \t\r\n").find(rest_.back()) != std::string_view::npos) {
             rest_.remove_suffix(1);
+            check_();
+        }
     }
 
     void append_to(Lights& lights)
@@ -139,9 +143,10 @@ private:
 
     Light read_light()
     {
+        check_();
         const std::string_view row = next_line();
         Fields fields;
-        const std::size_t count = split(row, fields);
+        const std::size_t count = split(row, fields, check_);
         if (count != column_count)
             fail("", trimmed(row).empty() ? "an empty line" : fmt::format("{} fields", count),
                  fmt::format("a row has {} fields, as the header has", column_count),
@@ -162,6 +167,7 @@ private:
 
     std::string_view rest_;
     const std::filesystem::path& file_;
+    StopEvery check_;
     std::size_t line_ = 0;
     std::vector<std::size_t>
         order_;  ///< of the columns in the file, as indices into scene_keys::columns
@@ -169,14 +175,15 @@ private:
 
 }  // namespace
 
-void append_light_table(std::string_view text, const std::filesystem::path& file, Lights& to)
+void append_light_table(std::string_view text, const std::filesystem::path& file, Lights& to,
+                        const StopToken& stop)
 {
-    TableReader(text, file).append_to(to);
+    TableReader(text, file, stop).append_to(to);
 }
 
-void append_light_table(const std::filesystem::path& file, Lights& to)
+void append_light_table(const std::filesystem::path& file, Lights& to, const StopToken& stop)
 {
-    append_light_table(read_text_file(file, "table of lights"), file, to);
+    append_light_table(read_text_file(file, "table of lights", stop), file, to, stop);
 }
 
 }  // namespace mis

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <system_error>
 
 namespace mis {
@@ -53,9 +54,22 @@ std::size_t utf8_length(std::string_view rest)
     return 0;
 }
 
+/// The next bytes of a stream; none at its end or on an error. A signal ends the wait for a pipe.
+std::size_t read_some(std::FILE* stream, std::span<char> buffer, const StopToken& stop)
+{
+    for (;;) {
+        stop.check();
+        errno = 0;
+        const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), stream);
+        if (count > 0 || std::ferror(stream) == 0 || errno != EINTR) return count;
+        std::clearerr(stream);
+    }
+}
+
 }  // namespace
 
-std::string read_text_file(const std::filesystem::path& file, std::string_view kind)
+std::string read_text_file(const std::filesystem::path& file, std::string_view kind,
+                           const StopToken& stop)
 {
     std::error_code error;
     if (std::filesystem::is_directory(file, error))
@@ -63,6 +77,7 @@ std::string read_text_file(const std::filesystem::path& file, std::string_view k
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "rb"),
                                                                  &std::fclose);
     if (!stream) {
+        stop.check();  // a signal ends the wait for a pipe to be opened at its other end
         const std::error_code reason(errno, std::generic_category());
         if (reason == std::errc::no_such_file_or_directory || reason == std::errc::not_a_directory)
             fail_on(file, "no such file", fmt::format("a {} is a file that exists", kind),
@@ -76,7 +91,7 @@ std::string read_text_file(const std::filesystem::path& file, std::string_view k
     if (!error && size > limits::scene_file_bytes) fail_too_large(file, kind);
     if (!error) text.reserve(size);
     std::array<char, 1 << 16> buffer;
-    while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), stream.get())) {
+    while (const std::size_t count = read_some(stream.get(), buffer, stop)) {
         text.append(buffer.data(), count);
         if (text.size() > limits::scene_file_bytes) fail_too_large(file, kind);
     }
@@ -97,9 +112,11 @@ TextPlace place_in(std::string_view text, std::size_t byte)
             before.size() - line_start + 1};
 }
 
-void require_utf8(std::string_view text, const std::filesystem::path& file)
+void require_utf8(std::string_view text, const std::filesystem::path& file, const StopToken& stop)
 {
+    StopEvery check(stop, 1 << 20);
     for (std::size_t i = 0; i < text.size();) {
+        check();
         const std::size_t length = text[i] == '\0' ? 0 : utf8_length(text.substr(i, 4));
         if (length == 0) {
             const auto [line, column] = place_in(text, i);

@@ -26,10 +26,13 @@ template <class... Rules> MaybeProblem first_problem(const Rules&... rules)
 
 /// The first problem among `items`, each examined with its index.
 template <class Items, class Rule>
-MaybeProblem first_problem_among(const Items& items, const Rule& rule)
+MaybeProblem first_problem_among(const Items& items, const StopToken& stop, const Rule& rule)
 {
-    for (std::size_t i = 0; i < items.size(); ++i)
+    StopEvery check(stop, 1 << 14);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        check();
         if (MaybeProblem problem = rule(items[i], i)) return problem;
+    }
     return {};
 }
 
@@ -115,17 +118,18 @@ MaybeProblem check_lens(const Camera& camera)
     return {};
 }
 
-MaybeProblem check_outside_lights(const Camera& camera, const Lights& lights)
+MaybeProblem check_outside_lights(const Camera& camera, const Lights& lights, const StopToken& stop)
 {
-    return first_problem_among(lights, [&](const Light& light, std::size_t j) -> MaybeProblem {
-        if (length(camera.position - light.center) > light.radius) return {};
-        return Problem{"/camera/position",
-                       to_text(camera.position) + ", inside light " + to_text(j) +
-                           " (counted from 0; center " + to_text(light.center) + ", radius " +
-                           to_text(light.radius) + ")",
-                       "a camera stands outside all lights, whose inner sides are dark",
-                       "Move the camera, or make the light smaller."};
-    });
+    return first_problem_among(
+        lights, stop, [&](const Light& light, std::size_t j) -> MaybeProblem {
+            if (length(camera.position - light.center) > light.radius) return {};
+            return Problem{"/camera/position",
+                           to_text(camera.position) + ", inside light " + to_text(j) +
+                               " (counted from 0; center " + to_text(light.center) + ", radius " +
+                               to_text(light.radius) + ")",
+                           "a camera stands outside all lights, whose inner sides are dark",
+                           "Move the camera, or make the light smaller."};
+        });
 }
 
 MaybeProblem check_camera(const Scene& scene)
@@ -213,9 +217,9 @@ MaybeProblem check_material(const Material& material)
                        "known types are " + comma_list(material_type_names),
                        did_you_mean(material.type, material_type_names, "Use one of these.")};
     const auto fields = [&] {
-        return first_problem_among(type->fields, [&](const MaterialField& f, std::size_t) {
-            return check_field(material, f);
-        });
+        return first_problem_among(
+            type->fields, StopToken(),
+            [&](const MaterialField& f, std::size_t) { return check_field(material, f); });
     };
     const auto probability = [&]() -> MaybeProblem {
         const double s = material.specular_probability.value_or(0);
@@ -233,13 +237,13 @@ MaybeProblem check_material(const Material& material)
 
 // ── surfaces ──
 
-MaybeProblem check_shape(const SphereSurface& sphere)
+MaybeProblem check_shape(const SphereSurface& sphere, const StopToken&)
 {
     return first_problem([&] { return check_position("/center", sphere.center); },
                          [&] { return check_radius("/radius", sphere.radius); });
 }
 
-MaybeProblem check_shape(const Quad& quad)
+MaybeProblem check_shape(const Quad& quad, const StopToken&)
 {
     const auto edges = [&]() -> MaybeProblem {
         if (sine_between(quad.edges[0], quad.edges[1]) >= limits::min_sine) return {};
@@ -252,13 +256,13 @@ MaybeProblem check_shape(const Quad& quad)
                          [&] { return check_position("/edges/1", quad.edges[1]); }, edges);
 }
 
-MaybeProblem check_triangles(const Mesh& mesh)
+MaybeProblem check_triangles(const Mesh& mesh, const StopToken& stop)
 {
     if (mesh.triangles.empty())
         return Problem{"/file", "a mesh without triangles", "a mesh has at least one triangle",
                        "Remove the surface."};
     return first_problem_among(
-        mesh.triangles, [&](const auto& triangle, std::size_t i) -> MaybeProblem {
+        mesh.triangles, stop, [&](const auto& triangle, std::size_t i) -> MaybeProblem {
             const std::uint32_t last = std::max({triangle[0], triangle[1], triangle[2]});
             if (last < mesh.positions.size()) return {};
             return Problem{
@@ -268,17 +272,17 @@ MaybeProblem check_triangles(const Mesh& mesh)
         });
 }
 
-MaybeProblem check_vertices(const Mesh& mesh)
+MaybeProblem check_vertices(const Mesh& mesh, const StopToken& stop)
 {
     return first_problem_among(
-        mesh.positions, [](const Vec3<double>& position, std::size_t i) -> MaybeProblem {
+        mesh.positions, stop, [](const Vec3<double>& position, std::size_t i) -> MaybeProblem {
             if (is_position(position)) return {};
             return Problem{"/file", "vertex " + to_text(i) + " at " + to_text(position),
                            coordinates_allowed(), "Look at the mesh, and at its transform."};
         });
 }
 
-MaybeProblem check_normals(const Mesh& mesh)
+MaybeProblem check_normals(const Mesh& mesh, const StopToken& stop)
 {
     constexpr float tolerance = 1e-4f;
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
@@ -287,7 +291,7 @@ MaybeProblem check_normals(const Mesh& mesh)
                            to_text(mesh.positions.size()) + " vertices",
                        "a mesh has one normal per vertex, or none at all", "Mend the mesh."};
     return first_problem_among(
-        mesh.normals, [](const Vec3<float>& normal, std::size_t i) -> MaybeProblem {
+        mesh.normals, stop, [](const Vec3<float>& normal, std::size_t i) -> MaybeProblem {
             if (std::abs(length(normal) - 1) <= tolerance) return {};
             return Problem{
                 "/file", "normal " + to_text(vec_cast<double>(normal)) + " at vertex " + to_text(i),
@@ -295,17 +299,19 @@ MaybeProblem check_normals(const Mesh& mesh)
         });
 }
 
-MaybeProblem check_shape(const Mesh& mesh)
+MaybeProblem check_shape(const Mesh& mesh, const StopToken& stop)
 {
-    return first_problem([&] { return check_triangles(mesh); },
-                         [&] { return check_vertices(mesh); }, [&] { return check_normals(mesh); });
+    return first_problem([&] { return check_triangles(mesh, stop); },
+                         [&] { return check_vertices(mesh, stop); },
+                         [&] { return check_normals(mesh, stop); });
 }
 
-MaybeProblem check_surface(const Surface& surface, const Scene& scene)
+MaybeProblem check_surface(const Surface& surface, const Scene& scene, const StopToken& stop)
 {
     return first_problem(
         [&] {
-            return std::visit([](const auto& shape) { return check_shape(shape); }, surface.shape);
+            return std::visit([&](const auto& shape) { return check_shape(shape, stop); },
+                              surface.shape);
         },
         [&] { return check_material_index("/material", surface.material, scene); });
 }
@@ -380,7 +386,7 @@ MaybeProblem find_light_problem(const Vec3<double>& center, double radius, Emiss
                          [&] { return check_emission(radius, emission, emitted); });
 }
 
-MaybeProblem find_problem(const Scene& scene)
+MaybeProblem find_problem(const Scene& scene, const StopToken& stop)
 {
     const auto indexed = [](const char* list, std::size_t i, MaybeProblem problem) {
         return problem ? placed_below(list + to_text(i), std::move(problem)) : MaybeProblem{};
@@ -388,30 +394,32 @@ MaybeProblem find_problem(const Scene& scene)
     return first_problem(
         [&] { return check_camera(scene); },
         [&] {
-            return first_problem_among(scene.probes, [&](const Probe& probe, std::size_t i) {
+            return first_problem_among(scene.probes, stop, [&](const Probe& probe, std::size_t i) {
                 return indexed("/probes/", i, check_probe(probe, scene));
             });
         },
         [&] {
-            return first_problem_among(scene.materials, [](const Material& material, std::size_t) {
-                return placed_below("/materials/" + pointer_token(material.name),
-                                    check_material(material));
-            });
+            return first_problem_among(
+                scene.materials, stop, [](const Material& material, std::size_t) {
+                    return placed_below("/materials/" + pointer_token(material.name),
+                                        check_material(material));
+                });
         },
         [&] {
-            return first_problem_among(scene.surfaces, [&](const Surface& surface, std::size_t i) {
-                return indexed("/surfaces/", i, check_surface(surface, scene));
-            });
+            return first_problem_among(
+                scene.surfaces, stop, [&](const Surface& surface, std::size_t i) {
+                    return indexed("/surfaces/", i, check_surface(surface, scene, stop));
+                });
         },
         [&] { return check_triangle_count(scene); },
         [&] { return check_light_count(scene.lights); },
         [&] {
-            return first_problem_among(scene.lights, [&](const Light& light, std::size_t i) {
+            return first_problem_among(scene.lights, stop, [&](const Light& light, std::size_t i) {
                 return indexed("/lights/", i, check_kept_light(light));
             });
         },
         [&] {
-            return scene.camera ? check_outside_lights(*scene.camera, scene.lights)
+            return scene.camera ? check_outside_lights(*scene.camera, scene.lights, stop)
                                 : MaybeProblem{};
         });
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/scene/scene.h"
 
 #include <optional>
@@ -37,8 +38,8 @@ inline constexpr double min_sine =
 }  // namespace limits
 
 /// The first rule that `scene` breaks, or nothing. Pointers name the place in a scene file that
-/// would hold the value. The index in a pointer to a light is that in scene.lights.
-std::optional<Problem> find_problem(const Scene& scene);
+/// would hold the value. The index in a pointer to a light is that in scene.lights. Throws Stopped.
+std::optional<Problem> find_problem(const Scene& scene, const StopToken& stop = {});
 
 /// How a scene file states what a light emits.
 enum class Emission { radiance, power };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/scene/scene.h"
 #include "mis/trace/visibility.h"
 
@@ -18,11 +19,11 @@ void occluded_in(RTCSceneTy* scene, std::span<const ShadowRay> rays,
 /// The surfaces of a scene in Embree's trees (3.13 or 4); lights are not among them. Owns device
 /// and scene; keeps a reference to the scene. Triangles and quads are intersected by Embree in
 /// float, relative to the middle of the surfaces; spheres in double. What a camera ray hits is
-/// computed again in double. Throws std::runtime_error where Embree fails (no memory).
+/// computed again in double. Throws std::runtime_error where Embree fails (no memory), and Stopped.
 class EmbreeTracer final : public SurfaceTracer {
 public:
     /// Builds the trees. Keeps a reference to the scene.
-    explicit EmbreeTracer(const Scene& scene);
+    explicit EmbreeTracer(const Scene& scene, const StopToken& stop = {});
     ~EmbreeTracer() override;
 
     void occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const override;
