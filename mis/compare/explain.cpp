@@ -72,13 +72,13 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
             if (row <= found.height / 2) some = spread_tiles(band, most_tiles_of_savings);
         }
     } else {
-        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces());
+        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces(), executor);
         lit.plan(probes, executor);
         count_points(found, lit, probes, sums);
         some = spread_tiles(probes, most_tiles_of_savings);
     }
     if (scene.camera && !scene.probes.empty()) {  // they call for effects, too
-        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces());
+        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces(), executor);
         lit.plan(probes, executor);
         sums.add(lit.tiles_that_call(probes));
         found.tiles += probes.tiles.size();

@@ -24,7 +24,7 @@ StudyPoints find_study_points(const LitScene& scene, const AnyExecutor& executor
     if (camera)
         points.shading = find_shading_points(scene.scene(), scene.lights(), scene.surfaces(), 0,
                                              camera->resolution[1], executor);
-    const GBuffer probes = probe_points(scene.scene(), scene.lights(), scene.surfaces());
+    const GBuffer probes = probe_points(scene.scene(), scene.lights(), scene.surfaces(), executor);
     points.figure_points = camera ? points.shading.points.size() + points.shading.dark.size()
                                   : scene.scene().probes.size();
     points.figure_tiles = camera ? points.shading.tiles.size() : probes.tiles.size();

@@ -99,6 +99,18 @@ void append(GBuffer& buffer, const Found& found)
                              found.background.end());
 }
 
+/// How far rays start off each probe; none without surfaces.
+std::vector<double> offsets_of_probes(const Scene& scene, const SurfaceTracer* surfaces,
+                                      const AnyExecutor& executor)
+{
+    if (surfaces == nullptr) return {};
+    std::vector<Vec3<double>> positions;
+    for (const Probe& probe : scene.probes) positions.push_back(probe.position);
+    std::vector<double> offsets(positions.size());
+    surfaces->offsets_at(positions, offsets, executor.for_each);
+    return offsets;
+}
+
 }  // namespace
 
 GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights,
@@ -125,26 +137,33 @@ GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights,
 }
 
 GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
-                     const SurfaceTracer* surfaces)
+                     const SurfaceTracer* surfaces, const AnyExecutor& executor)
 {
-    GBuffer buffer;
     const std::uint32_t pixels = scene.camera
                                      ? static_cast<std::uint32_t>(scene.camera->resolution[0]) *
                                            static_cast<std::uint32_t>(scene.camera->resolution[1])
                                      : 0;
-    for (std::size_t p = 0; p < scene.probes.size(); ++p) {
+    const std::vector<double> offsets = offsets_of_probes(scene, surfaces, executor);
+    const auto ray_origin = [&](std::size_t p) {
+        if (surfaces == nullptr) return Vec3<double>(0);
         const Probe& probe = scene.probes[p];
-        Vec3<double> off{0};
-        if (surfaces != nullptr)
-            off = probe.position + probe.normal * surfaces->offset_at(probe.position) -
-                  surfaces->origin();
-        Found found;
-        add_point(found,
-                  {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing),
-                   vec_cast<float>(off), pixels + static_cast<std::uint32_t>(p)},
-                  probe.material, scene.lights, lights);
-        append(buffer, found);
-    }
+        return probe.position + probe.normal * offsets[p] - surfaces->origin();
+    };
+    constexpr std::size_t at_once = 64;
+    std::vector<Found> found(scene.probes.size());
+    executor.for_each((found.size() + at_once - 1) / at_once, [&](std::size_t block) {
+        const std::size_t end = std::min((block + 1) * at_once, found.size());
+        for (std::size_t p = block * at_once; p < end; ++p) {
+            const Probe& probe = scene.probes[p];
+            add_point(
+                found[p],
+                {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing),
+                 vec_cast<float>(ray_origin(p)), pixels + static_cast<std::uint32_t>(p)},
+                probe.material, scene.lights, lights);
+        }
+    });
+    GBuffer buffer;
+    for (const Found& of_probe : found) append(buffer, of_probe);
     return buffer;
 }
 

@@ -52,6 +52,6 @@ void plan_tiles(GBuffer& buffer, const TilePlanner& planner, const AnyExecutor& 
 
 /// The probes, each a tile of its own.
 GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
-                     const SurfaceTracer* surfaces);
+                     const SurfaceTracer* surfaces, const AnyExecutor& executor);
 
 }  // namespace mis

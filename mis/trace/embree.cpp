@@ -355,4 +355,10 @@ double EmbreeTracer::offset_at(const Vec3<double>& x) const
     return offset_of_point(trees_->scene, x, trees_->origin);
 }
 
+void EmbreeTracer::offsets_at(std::span<const Vec3<double>> points, std::span<double> offsets,
+                              const ForEach& for_each) const
+{
+    offsets_of_points(trees_->scene, points, trees_->origin, for_each, offsets);
+}
+
 }  // namespace mis

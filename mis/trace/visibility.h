@@ -4,6 +4,7 @@
 #include "mis/scene/light.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -27,6 +28,9 @@ struct SurfaceHit {
     int material;   ///< index into Scene::materials
 };
 
+/// Runs body(0) … body(n − 1), each once, on any thread and in any order: AnyExecutor::for_each.
+using ForEach = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
+
 /// What surfaces do to rays; an embedder may bring his own. Lights are no surfaces: trace/lights.h.
 class SurfaceTracer {
 public:
@@ -46,6 +50,13 @@ public:
 
     /// SurfaceHit::offset for a point that no ray found: of the surface it lies on, if on any.
     virtual double offset_at(const Vec3<double>& x) const = 0;
+
+    /// The same of many points: offsets[i] of points[i].
+    virtual void offsets_at(std::span<const Vec3<double>> points, std::span<double> offsets,
+                            const ForEach& for_each) const
+    {
+        for_each(points.size(), [&](std::size_t i) { offsets[i] = offset_at(points[i]); });
+    }
 };
 
 }  // namespace mis

@@ -44,7 +44,8 @@ TEST(GBuffer, AProbeThatFacesNoLightIsDark)
         light.center.y = height * light.radius;
         const Scene scene = probe_under({light}, grey_floor());
         const LitScene lit(scene, nullptr, called_for(scene));
-        const GBuffer probes = probe_points(scene, lit.lights(), nullptr);
+        const GBuffer probes =
+            probe_points(scene, lit.lights(), nullptr, any_executor(SerialExecutor{}));
         EXPECT_EQ(probes.dark.size(), height < -1.00005 ? 1U : 0U) << height;
     }
 }

@@ -104,7 +104,7 @@ OnePoint found(const ReadyScene& ready, const Place& place, const AnyExecutor& e
         if (scene.probes.empty())
             throw ArgumentError(scene.file + ": found no probes; name a pixel");
         check_range("probe", *probe, 0, static_cast<std::int64_t>(scene.probes.size()) - 1);
-        one.buffer = probe_points(scene, ready.lit.lights(), ready.tracer.get());
+        one.buffer = probe_points(scene, ready.lit.lights(), ready.tracer.get(), executor);
         id = std::int64_t{size[0]} * size[1] + *probe;
     } else {
         const auto [column, row] = std::get<std::array<std::int64_t, 2>>(place);
