@@ -22,11 +22,13 @@ PredictReport::Probe predicted(const Scene& scene, const Probe& probe,
                                const std::vector<Strategy>& strategies, const AnyExecutor& executor,
                                const PredictTolerance& tolerance)
 {
-    if (interrupt_flag()) return {.figures = {}, .refusal = "interrupted"};
     try {
+        interrupt_token().check();
         return {.figures = predict(scene, probe, strategies, tolerance,
-                                   {.executor = &executor, .stop = &interrupt_flag()}),
+                                   {.executor = &executor, .stop = interrupt_token()}),
                 .refusal = {}};
+    } catch (const Stopped&) {
+        return {.figures = {}, .refusal = "interrupted"};
     } catch (const PredictError& error) {
         return {.figures = {}, .refusal = error.what()};
     }
@@ -78,6 +80,9 @@ int run_predict(const PredictOptions& options)
         predicted_scene(scene, selection, executor, report.tolerance, options.quiet));
     report.partial = interrupt_flag();
     const PredictReport::Scene& found = report.scenes.front();
+    if (report.partial &&
+        std::ranges::all_of(found.probes, [](const auto& probe) { return probe.figures.empty(); }))
+        throw Stopped();
     if (options.output.json != "-" && options.output.csv != "-")
         write_text("-", fmt::format("{}: {} probes, {} lights\n\n{}",
                                     printable(found.name.empty() ? found.file : found.name),
