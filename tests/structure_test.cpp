@@ -31,7 +31,7 @@ const Graph may_include{
     {"effects", {"trace", "strategy"}},
     {"engine",
      {"technique", "heuristic", "strategy", "effects", "run/executor.h", "run/pool.h",
-      "run/serial.h"}},
+      "run/made_once.h", "run/serial.h"}},
     {"predict", {"technique", "heuristic", "strategy", "run/executor.h"}},
     {"compare", {"engine", "predict", "run/executor.h", "run/pool.h", "run/serial.h"}},
     {"run", {"math"}},

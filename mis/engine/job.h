@@ -3,6 +3,7 @@
 #include "mis/effects/tile_plan.h"
 #include "mis/engine/batch.h"
 #include "mis/engine/light_order.h"
+#include "mis/math/stop_token.h"
 #include "mis/policy/light_choice.h"
 #include "mis/sampling/number_source.h"
 #include "mis/scene/shading_point.h"
@@ -35,6 +36,7 @@ template <class T> struct TileJob {
     bool draws_every_light = false;
     std::uint32_t draws_per_light = 1;  ///< or per sample, where the policy draws one
     std::uint32_t bsdf_draws = 1;       ///< per sample
+    const StopToken* stop = nullptr;    ///< asked between batches and draws; nullptr: never
 
     /// Is that proved of a light?
     MIS_INLINE bool knows(LightIndex light, LightProof proof) const

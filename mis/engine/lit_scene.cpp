@@ -42,18 +42,38 @@ EffectShares LitScene::tiles_that_call(const GBuffer& buffer) const
     return counts;
 }
 
+std::shared_ptr<const void> LitScene::policy(const std::string& name, const StopToken& stop) const
+{
+    return policies_->get(name, [&] { return make_policy(name, scene_->lights, stop); });
+}
+
+std::shared_ptr<const LightOrder> LitScene::order(const StopToken& stop) const
+{
+    return std::static_pointer_cast<const LightOrder>(orders_->get("space", [&] {
+        return std::make_shared<const LightOrder>(spatial_order(scene_->lights, stop));
+    }));
+}
+
+std::shared_ptr<const void> LitScene::policy_in_order(const std::string& name,
+                                                      const StopToken& stop) const
+{
+    const std::shared_ptr<const LightOrder> by_place = order(stop);
+    return policies_in_order_->get(
+        name, [&] { return make_policy(name, in_order(scene_->lights, *by_place), stop); });
+}
+
 template <class T>
 ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
                                 const Kernels<T>& kernels, NumberSource numbers,
-                                const Effects& also)
+                                const Effects& also, const StopToken& stop)
     : scene_(&scene), strategy_(strategy)
 {
     const Lights& lights = scene.scene().lights;
     if (strategy.chooses_light() && numbers.is_sobol()) {
-        order_ = std::make_shared<LightOrder>(spatial_order(lights));
-        policy_ = make_policy(strategy.policy, in_order(lights, *order_));
+        order_ = scene.order(stop);
+        policy_ = scene.policy_in_order(strategy.policy, stop);
     } else if (strategy.chooses_light()) {
-        policy_ = make_policy(strategy.policy, lights);
+        policy_ = scene.policy(strategy.policy, stop);
     }
     const std::vector<Material>& materials = scene.scene().materials;
     pipelines_.resize(materials.size());

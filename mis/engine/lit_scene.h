@@ -4,14 +4,17 @@
 #include "mis/effects/effects.h"
 #include "mis/effects/tile_plan.h"
 #include "mis/engine/gbuffer.h"
+#include "mis/engine/light_order.h"
 #include "mis/engine/tile.h"
 #include "mis/math/stop_token.h"
+#include "mis/run/made_once.h"
 #include "mis/run/pool.h"
 #include "mis/scene/scene.h"
 #include "mis/trace/lights.h"
 #include "mis/trace/visibility.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mis {
@@ -51,6 +54,15 @@ public:
         return {bsdfs_[i].get(), bsdf_number(scene_->materials[i].type)};
     }
 
+    /// A policy's tables, an object of its type (engine/choices.h), made when it
+    /// is first asked for and then shared by all strategies. Throws Stopped.
+    std::shared_ptr<const void> policy(const std::string& name, const StopToken& stop = {}) const;
+    /// The order of Sobol' numbers, and the tables of a policy in it; made once,
+    /// as well.
+    std::shared_ptr<const LightOrder> order(const StopToken& stop = {}) const;
+    std::shared_ptr<const void> policy_in_order(const std::string& name,
+                                                const StopToken& stop = {}) const;
+
 private:
     const Scene* scene_;
     const SurfaceTracer* surfaces_;
@@ -59,6 +71,10 @@ private:
     TilePlanner planner_;
     std::vector<std::shared_ptr<const void>> bsdfs_;
     bool has_grey_lights_;
+    using Made = MadeOnce<std::shared_ptr<const void>>;
+    std::shared_ptr<Made> policies_ = std::make_shared<Made>(),
+                          policies_in_order_ = std::make_shared<Made>(),
+                          orders_ = std::make_shared<Made>();
 };
 
 /// One strategy made ready on a scene: its policy's tables, and pipelines for each material, from
@@ -67,9 +83,10 @@ template <class T> class ReadyStrategy {
 public:
     /// strategy: checked (strategy/strategy.h). kernels: kernels<T>(). Keeps references to scene
     /// and kernels. also: effects that no scene, tile or material has left out, whatever it calls
-    /// for.
+    /// for. Throws Stopped.
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
-                  NumberSource numbers, const Effects& also = no_effects);
+                  NumberSource numbers, const Effects& also = no_effects,
+                  const StopToken& stop = {});
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;

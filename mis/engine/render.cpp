@@ -18,16 +18,21 @@ TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uin
 {
     const GBuffer& shading = band.shading;
     std::vector<TileTotals> totals(shading.tiles.size());
+    const StopToken token(stop);
     executor.for_each(shading.tiles.size(), [&](std::size_t t) {
-        if (stop != nullptr && *stop) return;
+        if (token.is_up()) return;
         const Tile& tile = shading.tiles[t];
         const auto points = std::span(shading.points).subspan(tile.first, tile.count);
-        workspaces.with([&](Workspace<float>& workspace) {
-            totals[t] =
-                workspace.run(strategy.job(tile, points), strategy.pipeline(tile),
-                              {.first = first, .chunk = count, .chunks = 1},
-                              std::span(band.results).subspan(tile.first, tile.count), {}, {});
-        });
+        TileJob<float> job = strategy.job(tile, points);
+        job.stop = &token;
+        try {
+            workspaces.with([&](Workspace<float>& workspace) {
+                totals[t] = workspace.run(
+                    job, strategy.pipeline(tile), {.first = first, .chunk = count, .chunks = 1},
+                    std::span(band.results).subspan(tile.first, tile.count), {}, {});
+            });
+        } catch (const Stopped&) {  // the samples that were taken stay
+        }
     });
     TileTotals sum;
     for (const TileTotals& t : totals) sum.add(t);

@@ -78,12 +78,14 @@ std::size_t table_bytes_of(std::string_view name, std::size_t lights)
 
 }  // namespace
 
-ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights)
+ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights,
+                           const std::shared_ptr<const void>& made)
     : lights_(&lights), scratch_(table_bytes_of(name, lights.size()) + 64)
 {
     for_each_type(Policies{}, [&]<class P>() {
         if (P::name != name) return;
-        const auto policy = std::make_shared<const P>(lights);
+        const auto policy =
+            made ? std::static_pointer_cast<const P>(made) : std::make_shared<const P>(lights);
         draws_every_light_ = P::draws_every_light;
         reads_all_lights_ = P::reads_all_lights;
         prepare_ = [policy](const ChoicePoint<double>& point, const LightColumns<double>& columns,

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -48,8 +49,10 @@ public:
         std::function<Choice(std::uint64_t bits)> choose;
         std::function<double(LightIndex)> probability;
     };
-    /// Throws std::out_of_range for an unknown name. Keeps a reference to the lights.
-    ScalarPolicy(std::string_view name, const Lights& lights);
+    /// made: make_policy(name, lights), where it is at hand. Throws std::out_of_range for an
+    /// unknown name. Keeps a reference to the lights.
+    ScalarPolicy(std::string_view name, const Lights& lights,
+                 const std::shared_ptr<const void>& made = nullptr);
     /// wo: in the shading frame about n.
     const Table& at(const Vec3<double>& x, const Vec3<double>& n, const Vec3<double>& wo,
                     const AnyBsdf& bsdf);

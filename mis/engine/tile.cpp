@@ -122,6 +122,7 @@ template <class T> struct Workspace<T>::Run {
             clear_points();
             return;
         }
+        check_stop();
         prepare_points();
         std::fill_n(batch.value.x.begin(), batch.samples, 0.0);
         if (pipeline.colour) {  // else the first channel is all that is read
@@ -130,13 +131,22 @@ template <class T> struct Workspace<T>::Run {
         }
         const std::size_t lights = pipeline.draws_every_light ? job.lights->size() : 1;
         const std::uint32_t light_draws = static_cast<std::uint32_t>(pipeline.light_draws * lights);
-        for (std::uint32_t draw = 0; draw < light_draws; ++draw)
+        for (std::uint32_t draw = 0; draw < light_draws; ++draw) {
+            if (draw % draws_between_looks == 0) check_stop();
             if (!is_below(draw)) run_half(pipeline.light, draw);
+        }
         for (int draw = 0; draw < pipeline.bsdf_draws; ++draw)
             run_half(pipeline.bsdf, static_cast<std::uint32_t>(draw));
         take_in();
         batch.samples = 0;
         batch.rows_are_samples = false;
+    }
+
+    static constexpr std::uint32_t draws_between_looks = 16;
+
+    void check_stop() const
+    {
+        if (job.stop != nullptr) job.stop->check();
     }
 
     /// Does a draw go to one light for all samples, which no point of the tile sees?
