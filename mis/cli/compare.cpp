@@ -57,14 +57,16 @@ void check_scramblings(const CompareOptions& options)
     constexpr double most = 65536;
     if (!(options.at >= 1 && options.at <= most) || options.at != std::floor(options.at))
         throw UsageError(
-            fmt::format("--at: found {}; with --sampler sobol it is the samples of one scrambling, "
+            fmt::format("--at: found {}; with --sampler sobol it is "
+                        "the samples of one scrambling, "
                         "a whole number from 1 to {}",
                         options.at, most));
     const auto at = static_cast<std::int64_t>(options.at);
     if (options.stop.spp && (*options.stop.spp < 4 * at || *options.stop.spp % at != 0))
-        throw UsageError(fmt::format(
-            "--spp: found {}; with --sampler sobol it is a multiple of --at ({}), and at least {}",
-            *options.stop.spp, at, 4 * at));
+        throw UsageError(
+            fmt::format("--spp: found {}; with --sampler sobol it is "
+                        "a multiple of --at ({}), and at least {}",
+                        *options.stop.spp, at, 4 * at));
 }
 
 void check_options(const CompareOptions& options)
@@ -85,6 +87,51 @@ void write_outputs(const CompareOptions& options, const Report& report,
     if (!options.out.empty()) write_report_folder(report, maps, options.out, options.force);
 }
 
+std::string no_time_message(const std::string& file, const CompareOptions& options)
+{
+    return fmt::format(
+        "--time: found {}; in so many seconds not even the shading points of {} "
+        "were found\n    "
+        "Give more time, or a lower --resolution.",
+        options.stop.seconds.value_or(StudyOptions().default_seconds), file);
+}
+
+bool has_samples(const SceneReport& scene)
+{
+    return std::any_of(scene.strategies.begin(), scene.strategies.end(),
+                       [](const StrategyReport& s) { return s.samples > 0; });
+}
+
+/// Compares the strategies on a scene, and shows what was found. Throws Stopped
+/// where it was stopped before the first sample.
+void add_scene(const std::string& file, const CompareOptions& options,
+               const std::vector<Strategy>& strategies, Progress& progress, Report& report,
+               std::vector<std::optional<Maps>>& maps)
+{
+    const ReadyScene ready(file, options.run);
+    check_memory(ready.scene, strategies.size(), !options.out.empty());
+    report.threads = ready.executor.threads;
+    if (options.stop.spp)
+        ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
+                                 static_cast<double>(strategies.size()));
+    Study study =
+        run_study(ready.lit, strategies, study_options(options, progress), ready.executor);
+    progress.clear();
+    if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
+    if (study.report.partial && !has_samples(study.report)) throw Stopped();
+    study.report.setup = ready.setup;
+    report.scenes.push_back(study.report);
+    if (!options.out.empty())
+        maps.push_back(ready.scene.camera
+                           ? std::optional(maps_of(ready.lit, study, options.at, ready.executor))
+                           : std::nullopt);
+    report.partial = report.partial || study.report.partial;
+    if (options.output.json == "-" || options.output.csv == "-") return;
+    fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
+               scene_text(report.scenes.back(), report));
+    std::fflush(stdout);
+}
+
 }  // namespace
 
 int run_compare(const CompareOptions& options)
@@ -93,7 +140,8 @@ int run_compare(const CompareOptions& options)
         return run_changes(options);
     if (options.fail_on_regression)
         throw UsageError(
-            "--fail-on-regression: found scenes; it takes two reports, as --json wrote them: mis "
+            "--fail-on-regression: found scenes; it takes two "
+            "reports, as --json wrote them: mis "
             "compare OLD.json NEW.json");
     check_options(options);
     const StrategySelection selection =
@@ -118,26 +166,12 @@ int run_compare(const CompareOptions& options)
             check_memory(read_scene_for(file, options.run), selection.strategies.size(),
                          !options.out.empty());
     for (const std::string& file : options.scenes) {
-        const ReadyScene ready(file, options.run);
-        check_memory(ready.scene, selection.strategies.size(), !options.out.empty());
-        report.threads = ready.executor.threads;
-        if (options.stop.spp)
-            ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
-                                     static_cast<double>(selection.strategies.size()));
-        const Study study = run_study(ready.lit, selection.strategies,
-                                      study_options(options, progress), ready.executor);
-        progress.clear();
-        if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
-        report.scenes.push_back(study.report);
-        if (!options.out.empty())
-            maps.push_back(ready.scene.camera ? std::optional(maps_of(ready.lit, study, options.at,
-                                                                      ready.executor))
-                                              : std::nullopt);
-        report.partial = report.partial || study.report.partial;
-        if (shows_table) {
-            fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
-                       scene_text(report.scenes.back(), report));
-            std::fflush(stdout);
+        try {
+            add_scene(file, options, selection.strategies, progress, report, maps);
+        } catch (const Stopped&) {
+            if (!interrupt_flag()) throw UsageError(no_time_message(file, options));
+            if (report.scenes.empty()) throw;
+            report.partial = true;
         }
         if (interrupt_flag()) break;
     }

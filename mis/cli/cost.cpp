@@ -92,9 +92,13 @@ int run_cost(const CostCommandOptions& options)
     report.scenes.push_back(
         run_cost_study(ready.lit, choices, study_options(options, progress), ready.executor));
     progress.clear();
+    report.scenes.front().setup = ready.setup;
     const CostSceneReport& found = report.scenes.front();
     if (found.shading_points == 0) throw UsageError(no_points_message(ready.scene));
     report.partial = found.partial;
+    if (found.partial && std::all_of(found.curves.begin(), found.curves.end(),
+                                     [](const auto& curve) { return curve.points.empty(); }))
+        throw Stopped();
     if (options.output.json != "-" && options.output.csv != "-")
         write_text("-", cost_text(found, report.threads));
     if (!options.output.json.empty()) write_text(options.output.json, cost_json(report));

@@ -12,7 +12,8 @@ int run_explain(const ExplainOptions& options)
         throw UsageError("--csv: explain has no table of figures; it has --json");
     check(options.output);
     const ReadyScene ready(options.scene, options.run);
-    const Explanation explanation = explain(ready.lit, ready.stoppable_executor());
+    const Explanation explanation =
+        explain(ready.lit, ready.stoppable_executor(), interrupt_token());
     if (options.output.json != "-") fmt::print("{}", explanation_text(explanation));
     if (!options.output.json.empty())
         write_explanation_json(explanation,

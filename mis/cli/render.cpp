@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -91,6 +90,18 @@ int rows_of_band(const Camera& camera)
     return std::clamp(band_pixels / width / tile_side * tile_side, tile_side, height + tile_side);
 }
 
+/// Some rows' points; nothing where that is interrupted and rows before them are lit. Throws
+/// Stopped where none are.
+std::optional<Band> next_band(const ReadyScene& ready, int row, int rows)
+{
+    try {
+        return find_band(ready.lit, row, rows, ready.stoppable_executor());
+    } catch (const Stopped&) {
+        if (row == 0) throw;
+        return std::nullopt;
+    }
+}
+
 /// The closed form at every point; refused where some have none.
 Outcome render_exactly(const ReadyScene& ready, Progress& progress)
 {
@@ -99,8 +110,12 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     const int height = outcome.image.height, band_rows = rows_of_band(*ready.scene.camera);
     ExactShare share;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
-        Band band = find_band(ready.lit, row, std::min(band_rows, height - row),
-                              ready.stoppable_executor());
+        std::optional<Band> next = next_band(ready, row, std::min(band_rows, height - row));
+        if (!next) {
+            outcome.is_partial = true, outcome.unlit_from = row;
+            break;
+        }
+        Band& band = *next;
         const ExactShare here = exact_share(ready.lit, band.shading);
         share.exact += here.exact, share.points += here.points;
         share.exact_tiles += here.exact_tiles, share.tiles += here.tiles;
@@ -114,8 +129,10 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     }
     if (!share.is_all())
         throw UsageError(fmt::format(
-            "--strategy exact: {} of the {} shading points of {}, in {} of {} tiles, have a closed "
-            "form, and all must: surfaces without a lobe, and no surface and no other light that "
+            "--strategy exact: {} of the {} shading points of {}, in {} of {} "
+            "tiles, have a closed "
+            "form, and all must: surfaces without a lobe, and no surface and no "
+            "other light that "
             "may stand before any light; `mis explain` says why one may\n"
             "    `mis predict` has exact values of probes on any material.",
             share.exact, share.points, ready.scene.file, share.exact_tiles, share.tiles));
@@ -133,8 +150,12 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
     outcome.samples = spp;
     WorkspacePool<float> workspaces;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
-        Band band = find_band(ready.lit, row, std::min(band_rows, height - row),
-                              ready.stoppable_executor());
+        std::optional<Band> next = next_band(ready, row, std::min(band_rows, height - row));
+        if (!next) {
+            outcome.is_partial = true, outcome.unlit_from = row;
+            break;
+        }
+        Band& band = *next;
         constexpr std::uint64_t step = 16;
         std::uint64_t sampled = 0;
         for (std::uint64_t s = 0; s < spp && !outcome.is_partial; s += step) {
@@ -161,11 +182,12 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
 }
 
 /// Until a time or an error is reached: all of the picture at once, in doubling rounds. To an error
-/// by Sobol' sequences, all rounds double, so that the samples are a power of two.
+/// by Sobol' sequences, all rounds double, so that the samples are a power of two. start: of the
+/// time.
 Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strategy,
-                     const StopOptions& stop, bool is_sobol, Progress& progress)
+                     const StopOptions& stop, bool is_sobol, Clock::time_point start,
+                     Progress& progress)
 {
-    const auto start = std::chrono::steady_clock::now();
     Outcome outcome;
     outcome.image = black_picture(*ready.scene.camera);
     WorkspacePool<float> workspaces;
@@ -174,7 +196,7 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     int count = 4;
     bool is_done = false;
     while (!is_done) {
-        const auto round = std::chrono::steady_clock::now();
+        const auto round = Clock::now();
         outcome.invalid += light_band(strategy, band, outcome.samples, count, workspaces,
                                       ready.executor, &interrupt_flag())
                                .invalid;
@@ -212,10 +234,12 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
 std::string in_words(const PictureError& error)
 {
     if (error.is_dark())
-        return "relative error of the estimate: unknown, all samples of a point agree";
+        return "relative error of the estimate: unknown, all samples of a point "
+               "agree";
     if (!error.is_resolved())
         return fmt::format(
-            "relative error of the estimate: not resolved, {:.0f} samples carry it and "
+            "relative error of the estimate: not resolved, {:.0f} "
+            "samples carry it and "
             "{:.0f} are needed",
             error.participation.number(), least_participation);
     return fmt::format("relative error of the estimate: {:.3g} %", 100 * error.relative);
@@ -234,10 +258,13 @@ Outcome render_by(const Strategy& strategy, const ReadyScene& ready, const Rende
                   Progress& progress)
 {
     const bool is_sobol = options.run.is_sobol();
+    const Clock::time_point start = Clock::now();
     const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(),
-                                        {options.run.seed, is_sobol ? one_scrambling : 0});
+                                        {options.run.seed, is_sobol ? one_scrambling : 0},
+                                        no_effects, interrupt_token());
     const StopOptions& stop = options.stop;
-    if (stop.seconds || stop.error) return render_until(ready, prepared, stop, is_sobol, progress);
+    if (stop.seconds || stop.error)
+        return render_until(ready, prepared, stop, is_sobol, start, progress);
     const auto spp = static_cast<std::uint64_t>(stop.spp.value_or(64));
     ready.lit.expect_samples(static_cast<double>(spp));
     return render_spp(ready, prepared, spp, progress);
@@ -269,14 +296,17 @@ int run_render(const RenderOptions& options)
 {
     check(options.stop, 1);
     if (!options.out.ends_with(".exr"))
-        throw UsageError(fmt::format(
-            "--out: found \"{}\"; the picture is an OpenEXR file: its name ends in .exr",
-            options.out));
+        throw UsageError(
+            fmt::format("--out: found \"{}\"; the picture is an "
+                        "OpenEXR file: its name ends in .exr",
+                        options.out));
     check_output_file("--out", options.out);
     const bool is_exact = options.strategy == "exact";
     const StopOptions& stop = options.stop;
     if (is_exact && (stop.spp || stop.seconds || stop.error))
-        throw UsageError("--strategy exact: it takes no samples; leave out --spp, --time, --error");
+        throw UsageError(
+            "--strategy exact: it takes no samples; leave out --spp, "
+            "--time, --error");
     if (is_exact && options.run.effects == "all")
         throw UsageError("--strategy exact: it needs the proofs of --effects auto");
     const std::optional<Strategy> strategy =
@@ -285,7 +315,7 @@ int run_render(const RenderOptions& options)
     if (!ready.scene.camera)
         throw UsageError(options.scene + ": found no camera; a picture needs one");
     Progress progress(!options.run.quiet);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const Outcome outcome =
         strategy ? render_by(*strategy, ready, options, progress) : render_exactly(ready, progress);
     progress.clear();

@@ -26,11 +26,13 @@ Found find_point(const StudyPoints& points, std::uint32_t id, const std::string&
             std::find_if(own.begin(), own.end(), [&](const ShadingPoint& p) { return p.id == id; });
         if (at != own.end()) return {&tile, &*at};
     }
-    throw UsageError(fmt::format(
-        "--point: found {}, which is no point of {} that can be lit\n    A point's number is its "
-        "pixel's, row by row from the top, at the same --resolution; after all pixels, the "
-        "probe's.",
-        id, scene));
+    throw UsageError(
+        fmt::format("--point: found {}, which is no point of {} "
+                    "that can be lit\n    A point's number is its "
+                    "pixel's, row by row from the top, at the same "
+                    "--resolution; after all pixels, the "
+                    "probe's.",
+                    id, scene));
 }
 
 /// A figure, or a dash where no stage has come to it yet.
@@ -81,7 +83,8 @@ template <class T>
 Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Strategy& strategy,
                     const Found& found, bool prints)
 {
-    const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), numbers_of(options));
+    const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), numbers_of(options), no_effects,
+                                 interrupt_token());
     const Replay again = replay(lit, ready, *found.tile, *found.point, options.sample);
     if (prints) print_steps(again);
     return again.value;
@@ -102,8 +105,10 @@ int run_replay(const ReplayOptions& options)
                kernels<float>().instruction_set);
     const Vec3<double> in_float = run_in<float>(options, ready.lit, strategy, found, true),
                        in_double = run_in<double>(options, ready.lit, strategy, found, false);
-    fmt::print("\nvalue in float   {:.9g} {:.9g} {:.9g}\nvalue in double  {:.9g} {:.9g} {:.9g}\n",
-               in_float.x, in_float.y, in_float.z, in_double.x, in_double.y, in_double.z);
+    fmt::print(
+        "\nvalue in float   {:.9g} {:.9g} {:.9g}\nvalue in double  {:.9g} "
+        "{:.9g} {:.9g}\n",
+        in_float.x, in_float.y, in_float.z, in_double.x, in_double.y, in_double.z);
     return ok;
 }
 

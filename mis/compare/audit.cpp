@@ -8,8 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
+#include <string>
+#include <unordered_map>
 
 namespace mis {
 
@@ -21,6 +22,10 @@ constexpr std::size_t groups = 8;
 /// A group looks so many times at least, all points together: few points are looked at more often.
 constexpr std::size_t fewest_looks = 1024;
 
+/// Lights that are met by all looks together, times the policies that weigh
+/// them: about a second's work.
+constexpr double most_lights_weighed = 5e7;
+
 /// Sample numbers of the audit start here: no strategy draws from them.
 constexpr std::uint64_t first_sample = std::uint64_t{1} << 48;
 
@@ -30,28 +35,44 @@ struct AuditIntegrals {
     double square = 0, light = 0, bsdf = 0;
 };
 
+/// What the point at hand knows of a light that was met, whatever the
+/// direction.
+struct KnownLight {
+    Cap<double> cap;
+    std::size_t first;  ///< of its probabilities, one for each policy
+};
+
 /// All lights along a direction, and what is seen there.
 struct Seen {
-    std::vector<LightHit> hits;
+    std::vector<const KnownLight*> lights;
+    const KnownLight* nearest_light = nullptr;
     LightHit nearest;
     double luminance = 0;  ///< Y(f cos θ L) of the nearest, 0 where a surface is nearer
     double bsdf_pdf = 0;
-    Vec3<double> wi{0};             ///< in the shading frame
-    std::vector<Cap<double>> caps;  ///< of hits
+    Vec3<double> wi{0};  ///< in the shading frame
 };
+
+/// A mixture that reaches every light whatever is compared.
+std::vector<std::string> policies_of(std::span<const Strategy> strategies)
+{
+    std::set<std::string> names{"uniform", "power"};
+    for (const Strategy& s : strategies)
+        if (s.chooses_light()) names.insert(s.policy);
+    return {names.begin(), names.end()};
+}
 
 /// One point and all that is prepared for it.
 class Auditor {
 public:
-    Auditor(const LitScene& scene, std::span<const Strategy> strategies)
-        : scene_(scene), strategies_(strategies)
+    Auditor(const LitScene& scene, std::span<const Strategy> strategies, const StopToken& stop)
+        : scene_(scene), strategies_(strategies), stop_(stop)
     {
-        // A mixture that reaches every light whatever is compared.
-        std::set<std::string> names{"uniform", "power"};
-        for (const Strategy& s : strategies)
-            if (s.chooses_light()) names.insert(s.policy);
+        const std::vector<std::string> names = policies_of(strategies);
         for (const std::string& name : names)
-            policies_.emplace(name, ScalarPolicy(name, scene.scene().lights));
+            policies_.emplace_back(name, scene.scene().lights, scene.policy(name, stop));
+        for (const Strategy& s : strategies)
+            policy_of_.push_back(static_cast<std::size_t>(
+                std::find(names.begin(), names.end(), s.policy) - names.begin()));
         for (const Strategy& s : strategies)
             heuristics_.push_back(s.chooses_light() ? scalar_heuristic(s.heuristic)
                                                     : ScalarHeuristic{});
@@ -70,9 +91,9 @@ public:
         std::uint32_t draw = 0;
         for (std::vector<AuditIntegrals>& sums : found) {
             for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-                for (auto& [name, policy] : policies_)
-                    if (!policy.draws_every_light())
-                        take(sums, light_direction(name, draw++, seed));
+                for (std::size_t policy = 0; policy < policies_.size(); ++policy)
+                    if (!policies_[policy].draws_every_light())
+                        take(sums, light_direction(policy, draw++, seed));
                 take(sums, bsdf_direction(true, draw++, seed));
                 take(sums, bsdf_direction(false, draw++, seed));
             }
@@ -89,17 +110,18 @@ private:
         bsdf_ = &bsdfs_[static_cast<std::size_t>(at.material)];
         frame_ = frame_around(normalized(vec_cast<double>(at.point.n)));
         wo_ = frame_.to_local(vec_cast<double>(at.point.wo));
-        tables_.clear();
-        for (auto& [name, policy] : policies_)
-            tables_[name] = policy.at(point_.x, frame_.z, wo_, scene_.bsdf(at.material));
+        tables_.clear(), known_.clear(), probabilities_.clear();
+        for (ScalarPolicy& policy : policies_) {
+            stop_.check();
+            tables_.push_back(&policy.at(point_.x, frame_.z, wo_, scene_.bsdf(at.material)));
+        }
     }
 
     /// A direction from the cone of a light that the policy chooses, or 0 where it can choose none.
-    Vec3<double> light_direction(const std::string& policy, std::uint32_t draw,
-                                 std::uint64_t seed) const
+    Vec3<double> light_direction(std::size_t policy, std::uint32_t draw, std::uint64_t seed) const
     {
         const Words words = random_words(seed, {point_.id, first_sample, draw}, Block::light);
-        const Choice choice = tables_.at(policy).choose(choice_bits(words));
+        const Choice choice = tables_[policy]->choose(choice_bits(words));
         if (choice.light < 0) return Vec3<double>(0);
         const Light& light = scene_.scene().lights[static_cast<std::size_t>(choice.light)];
         const Cap<double> cap = cap_of_sphere(light.center, light.radius, point_.x);
@@ -116,20 +138,33 @@ private:
         return local.z > 0 ? frame_.to_world(local) : Vec3<double>(0);
     }
 
-    Seen look(const Vec3<double>& wi) const
+    /// The cap of a light, and its probabilities: asked for once, however many
+    /// directions meet it.
+    const KnownLight& known(LightIndex j)
+    {
+        const auto [found, is_new] = known_.try_emplace(j);
+        KnownLight& light = found->second;
+        if (!is_new) return light;
+        check_();
+        const Light& sphere = scene_.scene().lights[static_cast<std::size_t>(j)];
+        light = {cap_of_sphere(sphere.center, sphere.radius, point_.x), probabilities_.size()};
+        for (const ScalarPolicy::Table* table : tables_)
+            probabilities_.push_back(table->probability(j));
+        return light;
+    }
+
+    Seen look(const Vec3<double>& wi)
     {
         Seen seen;
         const Vec3<double> local = frame_.to_local(wi);
         if (!(local.z > 0)) return seen;
         scene_.lights().for_each_along(point_.x, wi, [&](const LightHit& hit) {
-            const Light& light = scene_.scene().lights[static_cast<std::size_t>(hit.light)];
-            seen.hits.push_back(hit);
-            seen.caps.push_back(cap_of_sphere(light.center, light.radius, point_.x));
-            if (hit.distance < seen.nearest.distance ||
-                (hit.distance == seen.nearest.distance && hit.light < seen.nearest.light))
-                seen.nearest = hit;
+            check_();
+            seen.lights.push_back(&known(hit.light));
+            if (stands_before(hit, seen.nearest))
+                seen.nearest = hit, seen.nearest_light = seen.lights.back();
         });
-        if (seen.hits.empty()) return seen;
+        if (seen.lights.empty()) return seen;
         const BsdfValue<double> value = bsdf_->evaluate(wo_, local);
         seen.bsdf_pdf = value.pdf;
         seen.wi = local;
@@ -148,26 +183,28 @@ private:
 
     /// Of a light technique, at the direction seen: of the nearest light alone, or summed over all
     /// lights there.
-    double light_density(const std::string& policy, const ScalarTechnique& technique, bool sums,
+    double light_density(std::size_t policy, const ScalarTechnique& technique, bool sums,
                          const Seen& seen) const
     {
+        const auto of = [&](const KnownLight& light) {
+            return probabilities_[light.first + policy] *
+                   technique.light_pdf(light.cap, frame_.z, seen.wi.z);
+        };
+        if (!sums) return of(*seen.nearest_light);
         double density = 0;
-        const ScalarPolicy::Table& table = tables_.at(policy);
-        for (std::size_t i = 0; i < seen.hits.size(); ++i)
-            if (sums || seen.hits[i].light == seen.nearest.light)
-                density += table.probability(seen.hits[i].light) *
-                           technique.light_pdf(seen.caps[i], frame_.z, seen.wi.z);
+        for (const KnownLight* light : seen.lights) density += of(*light);
         return density;
     }
 
-    void take(std::vector<AuditIntegrals>& sums, const Vec3<double>& wi) const
+    void take(std::vector<AuditIntegrals>& sums, const Vec3<double>& wi)
     {
         if (length2(wi) == 0) return;
         const Seen seen = look(wi);
         if (!(seen.luminance > 0)) return;
         double mixture = seen.bsdf_pdf * (bsdf_->draws ? 1 : 0) + cosine_pdf(seen.wi.z);
-        for (const auto& [name, policy] : policies_)
-            if (!policy.draws_every_light()) mixture += light_density(name, cone_, true, seen);
+        for (std::size_t policy = 0; policy < policies_.size(); ++policy)
+            if (!policies_[policy].draws_every_light())
+                mixture += light_density(policy, cone_, true, seen);
         for (std::size_t s = 0; s < strategies_.size(); ++s) add(sums[s], s, seen, mixture);
     }
 
@@ -185,7 +222,7 @@ private:
         const double l = one_sample ? 0.5 : strategy.counts[0],
                      b = one_sample ? 0.5 : strategy.counts[1];
         const double light_pdf =
-            light_density(strategy.policy, techniques_[s], techniques_[s].sums_lights, seen);
+            light_density(policy_of_[s], techniques_[s], techniques_[s].sums_lights, seen);
         const std::array<double, 2> density{l * light_pdf, b * seen.bsdf_pdf};
         for (std::size_t i = 0; i < 2; ++i) {
             if (!(density[i] > 0)) continue;
@@ -197,7 +234,10 @@ private:
 
     const LitScene& scene_;
     std::span<const Strategy> strategies_;
-    std::map<std::string, ScalarPolicy> policies_;
+    const StopToken& stop_;
+    StopEvery check_{stop_, 1024};
+    std::vector<ScalarPolicy> policies_;
+    std::vector<std::size_t> policy_of_;  ///< [strategy]
     std::vector<ScalarHeuristic> heuristics_;
     std::vector<ScalarTechnique> techniques_;
     ScalarTechnique cone_ = scalar_technique("cone");
@@ -206,7 +246,9 @@ private:
     const ScalarBsdf* bsdf_ = nullptr;
     Frame<double> frame_{};
     Vec3<double> wo_{};
-    std::map<std::string, ScalarPolicy::Table> tables_;
+    std::vector<const ScalarPolicy::Table*> tables_;  ///< [policy], of the point at hand
+    std::unordered_map<LightIndex, KnownLight> known_;
+    std::vector<double> probabilities_;
 };
 
 /// The square of an expectation, unbiased, from independent values: all pairs of different ones.
@@ -267,21 +309,62 @@ double standard_error(const LeftOut& figure)
 
 }  // namespace
 
+double lights_along_a_direction(const LitScene& scene, std::span<const AuditPoint> points,
+                                std::uint64_t seed, const StopToken& stop)
+{
+    constexpr std::size_t most_points = 16, looks = 4;
+    const Lights& lights = scene.scene().lights;
+    const std::size_t count = std::min(points.size(), most_points);
+    if (lights.empty() || count == 0) return 0;
+    StopEvery check(stop, 1024);
+    double met = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const ShadingPoint& point = points[i * points.size() / count].point;
+        for (std::uint32_t k = 0; k < looks; ++k) {
+            const Words words = random_words(seed, {point.id, first_sample + 1, k}, Block::light);
+            const auto j = static_cast<std::size_t>(unit_number<double>(words[0]) *
+                                                    static_cast<double>(lights.size()));
+            const Cap<double> cap = cap_of_sphere(lights[j].center, lights[j].radius, point.x);
+            const Vec3<double> wi =
+                sample_cone(cap, {unit_number<double>(words[1]), unit_number<double>(words[2])}).wi;
+            scene.lights().for_each_along(point.x, wi, [&](const LightHit&) { check(), ++met; });
+        }
+    }
+    return met / static_cast<double>(count * looks);
+}
+
+AuditEffort audit_effort(std::size_t points, std::span<const Strategy> strategies,
+                         double lights_along)
+{
+    const auto techniques = static_cast<double>(policies_of(strategies).size() + 2);
+    // A draw of every technique, in every group: each light that is met is looked
+    // up, and weighed by every policy.
+    const double weighed =
+        static_cast<double>(groups) * techniques * std::max(1.0, lights_along) * (2 + techniques);
+    const double most = most_lights_weighed / weighed;  // repeats, of all points together
+    constexpr double hardly_any = 0.1;
+    if (points == 0 || most < hardly_any) return {0, 1};
+    const auto repeats = static_cast<std::size_t>(std::max(1.0, most));
+    const std::size_t count = std::min(points, repeats);
+    return {count, std::max<std::size_t>(1, std::min(fewest_looks, repeats) / count)};
+}
+
 std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoint> points,
-                                 std::span<const Strategy> strategies, std::uint64_t seed,
-                                 const AnyExecutor& executor)
+                                 std::span<const Strategy> strategies, std::size_t repeats,
+                                 std::uint64_t seed, const AnyExecutor& executor,
+                                 const StopToken& stop)
 {
     std::vector<AuditEstimate> estimates(strategies.size());
     if (points.empty()) return estimates;
     // [part][strategy]; one part per task, added in order.
-    const std::size_t repeats = std::max<std::size_t>(1, fewest_looks / points.size());
     const std::size_t parts = std::min<std::size_t>(points.size(), 64);
     const double share = 1 / static_cast<double>(points.size());
     std::vector<std::vector<FigureSums>> sums(parts);
     executor.for_each(parts, [&](std::size_t part) {
-        Auditor auditor(scene, strategies);
+        Auditor auditor(scene, strategies, stop);
         sums[part].resize(strategies.size());
         for (std::size_t p = part; p < points.size(); p += parts) {
+            stop.check();
             const std::vector<std::vector<AuditIntegrals>> drawn =
                 auditor.integrals(points[p], repeats, seed);
             std::vector<std::array<AuditIntegrals, groups>> found(strategies.size());

@@ -8,6 +8,7 @@
 #include "mis/engine/stopwatch.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace mis {
@@ -34,28 +35,44 @@ class CostStudy {
 public:
     CostStudy(const LitScene& scene, std::span<const CostChoice> choices,
               const CostOptions& options, const AnyExecutor& executor)
-        : options_(options), points_(find_study_points(scene, executor)),
+        : options_(options), points_(find_study_points(scene, stoppable(executor, interrupted_))),
           judged_(cost_points(points_, scene.scene().camera.has_value())),
-          ground_{scene, points_, workspaces_, executor, options.seed, options.stop}
+          ground_{scene, points_, workspaces_, executor, options.seed, until_late()}
     {
         for (const CostChoice& choice : choices) add_curve(choice);
     }
 
     CostSceneReport run()
     {
-        if (points_.figure_lit > 0) {
-            show(0, "finding the reference");
-            find_reference();
-            leave_out_unaffordable();
-            for (std::uint64_t samples = 1; !is_finished(); samples *= 2) {
-                if (options_.adds_twins && level_ == levels_before_twins) add_twins();
-                run_level(samples);
-            }
+        try {
+            if (points_.figure_lit > 0) run_levels();
+        } catch (const Stopped&) {  // what is complete counts
+            if (!interrupted_.is_up()) end_all();
         }
         return report();
     }
 
 private:
+    void run_levels()
+    {
+        show(0, "finding the reference");
+        find_reference();
+        leave_out_unaffordable();
+        for (std::uint64_t samples = 1; !is_finished(); samples *= 2) {
+            if (options_.adds_twins && level_ == levels_before_twins) add_twins();
+            run_level(samples);
+        }
+    }
+
+    /// Up when the study is stopped, and where it is late.
+    StopToken until_late() const
+    {
+        if (options_.spp) return interrupted_;
+        return interrupted_.until(start_ +
+                                  std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(1.1 * options_.seconds)));
+    }
+
     void show(double done, const std::string& doing) const
     {
         if (options_.progress) options_.progress(done, doing);
@@ -102,8 +119,10 @@ private:
                            0.6 * seconds_left() * ground_.executor.threads);
         for (std::size_t c = 0; c < curves_.size(); ++c) {
             if (costs[c].is_affordable) continue;
-            curves_[c].measured.reason = "past the budget: about " + duration(costs[c].seconds) +
-                                         " of CPU time for the first three doublings";
+            curves_[c].measured.reason =
+                costs[c].is_known ? "past the budget: about " + duration(costs[c].seconds) +
+                                        " of CPU time for the first three doublings"
+                                  : "past the budget: there was no time for a first sample";
             curves_[c].is_done = true;
         }
     }
@@ -302,10 +321,10 @@ private:
         report.is_sobol = options_.is_sobol;
         report.epsilon = reference_.scale.epsilon;
         report.reference = reference_.report;
-        report.is_black = !reference_.means.empty() && !ground_.is_stopped() &&
+        report.is_black = !reference_.means.empty() && !interrupted_.is_up() &&
                           std::all_of(reference_.means.begin(), reference_.means.end(),
                                       [](double mean) { return mean == 0; });
-        report.partial = ground_.is_stopped();
+        report.partial = interrupted_.is_up();
         std::vector<CostModel> models;
         for (const Curve& curve : curves_) {
             report.curves.push_back(curve_report(curve.measured, arithmetic_ground()));
@@ -327,6 +346,7 @@ private:
     }
 
     const CostOptions& options_;
+    StopToken interrupted_{options_.stop};
     Clock::time_point start_ = Clock::now();
     StudyPoints points_;
     CostPoints judged_;

@@ -48,7 +48,7 @@ void count_points(Explanation& found, const LitScene& lit, const GBuffer& shadin
 
 }  // namespace
 
-Explanation explain(const LitScene& lit, const AnyExecutor& executor)
+Explanation explain(const LitScene& lit, const AnyExecutor& executor, const StopToken& stop)
 {
     const Scene& scene = lit.scene();
     Explanation found;
@@ -85,7 +85,7 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
     }
     found.probes = scene.probes.size();
     found.effects = explained(scene, lit.effects(), sums.of(found.tiles));
-    measure_savings(lit, some, found.effects);
+    measure_savings(lit, some, found.effects, stop);
     found.light_bytes = scene.lights.size() * sizeof(Light);
     found.hierarchy_bytes = lit.lights().bytes();
     return found;

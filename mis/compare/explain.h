@@ -34,6 +34,6 @@ struct Explanation {
     std::size_t light_bytes = 0, hierarchy_bytes = 0;
 };
 
-Explanation explain(const LitScene& lit, const AnyExecutor& executor);
+Explanation explain(const LitScene& lit, const AnyExecutor& executor, const StopToken& stop = {});
 
 }  // namespace mis

@@ -15,8 +15,9 @@ constexpr std::size_t few_strategies = 6;
 
 StrategyRun sampled(const StudyGround& ground, const Strategy& strategy, int samples)
 {
-    StrategyRun run(ground.scene, ground.points, strategy, ~ground.seed);
-    run.sample_apart(samples, ground.workspaces, ground.executor);
+    StrategyRun run(ground.scene, ground.points, strategy, ~ground.seed, ground.stop);
+    if (!run.sample_apart(samples, ground.workspaces, ground.executor, ground.stop))
+        throw Stopped();
     return run;
 }
 
@@ -61,7 +62,7 @@ std::vector<double> best_tile_factors(const StudyGround& ground,
     std::vector<double> benefit(points.figure_tiles);
     const int samples = strategies.size() <= few_strategies ? 4 * pilot_samples : pilot_samples;
     for (const Strategy& strategy : strategies)
-        if (!ground.is_stopped()) add_benefit(benefit, sampled(ground, strategy, samples), points);
+        add_benefit(benefit, sampled(ground, strategy, samples), points);
     double mean = 0;
     std::vector<double> wanted(benefit.size());
     for (std::size_t t = 0; t < benefit.size(); ++t) {

@@ -56,13 +56,13 @@ struct StrategyReport {
     Interval seconds_to_1_percent;  ///< wall time on the stated threads
     double estimated_seconds = 0;   ///< CPU time that it would take: for not_run
     double bias_p_value = 1;        ///< against the reference pooled from the others, corrected
-    double rare_share =
-        0;  ///< share of the variance at points where rare samples carry it (pool.cpp)
-    double resolving_factor =
-        1;  ///< about how many times as many samples would resolve it; 1 where it is
+    double rare_share = 0;          ///< share of the variance at points where rare samples
+                                    ///< carry it (pool.cpp)
+    double resolving_factor = 1;    ///< about how many times as many samples would
+                                    ///< resolve it; 1 where it is
     AuditedGrowth least_growth;
-    double effective_samples =
-        0;  ///< how many samples carry the variance (measurements.h, Participation)
+    double effective_samples = 0;  ///< how many samples carry the variance
+                                   ///< (measurements.h, Participation)
     std::uint64_t invalid_samples = 0;
     SampleName first_invalid;  ///< where there are any
     std::vector<PointFigures> probes;
@@ -76,10 +76,20 @@ struct PairReport {
     Interval ratio;    ///< of the variances; 0 where a alone is exact
     Verdict verdict = Verdict::undecided;
     double more_replicates = 0;  ///< about how many more would decide it; for undecided
-    Interval efficiency_ratio;   ///< of the efficiencies; infinite where a alone is exact
+    Interval efficiency_ratio;   ///< of the efficiencies; infinite where a alone is
+                                 ///< exact
     Verdict efficiency_verdict = Verdict::undecided;
     Interval time_ratio;  ///< of the times to 1 %: how many times sooner b reaches it
     Verdict time_verdict = Verdict::undecided;
+};
+
+/// Wall time before a study begins, which is no part of its `seconds`.
+struct SetupSeconds {
+    double reading = 0;   ///< the scene's files
+    double surfaces = 0;  ///< Embree's tree
+    double lights = 0;    ///< the hierarchy that rays ask for lights
+
+    double all() const { return reading + surfaces + lights; }
 };
 
 struct SceneReport {
@@ -90,8 +100,10 @@ struct SceneReport {
     int replicates = 0;
     double epsilon = 0;  ///< of the relative variance
     bool settled = false, partial = false;
-    bool lacks_audit = false;  ///< for rare samples that were never drawn
-    double seconds = 0;        ///< wall
+    bool lacks_audit = false;            ///< for rare samples that were never drawn
+    bool had_no_time_for_audit = false;  ///< that is why; else that its samples are sequences
+    double seconds = 0;                  ///< wall
+    std::optional<SetupSeconds> setup;   ///< where it was timed
     std::vector<EffectPlan> effects;
     std::vector<StrategyReport> strategies;  ///< in the order asked for
     std::vector<PairReport> pairs;           ///< of ranked strategies
@@ -104,8 +116,8 @@ struct OverallReport {
     int rank = 0, rank_by_efficiency = 0;
     Interval variance_ratio, cost_ratio,
         time_ratio;           ///< ≥ 1; cost: variance × time, 1/efficiency; time: to 1 %
-    int beaten_by_exact = 0;  ///< scenes on which others are exact and it is not; there the first
-                              ///< two are over the best inexact
+    int beaten_by_exact = 0;  ///< scenes on which others are exact and it is not;
+                              ///< there the first two are over the best inexact
 };
 
 struct Report {

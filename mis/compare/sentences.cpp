@@ -113,7 +113,8 @@ private:
         if (order.empty()) return say("No strategy could be ranked on this scene" + remedy());
         if (is_black(order))
             return say(
-                "No light reaches any point that was measured: all is black, by any strategy");
+                "No light reaches any point that was measured: all is black, "
+                "by any strategy");
         const int best = order[0];
         std::vector<std::string> gains;
         for (const int i : alternatives(order))
@@ -129,9 +130,12 @@ private:
         say(verdict);
         say_how_sure(best);
         if (scene_.lacks_audit)
-            say("Sequences are not audited: a strategy that never drew what is rare would look "
-                "better "
-                "than it is, and one that did biased; --sampler independent tells");
+            say((scene_.had_no_time_for_audit ? "There was no time for an audit"
+                                              : "Sequences are not audited") +
+                std::string(": a strategy that never drew what is rare would look "
+                            "better than it "
+                            "is, and one that did biased; ") +
+                (scene_.had_no_time_for_audit ? "more time tells" : "--sampler independent tells"));
         say_most_efficient(best);
         say_least_variance(best);
     }
@@ -180,7 +184,8 @@ private:
         const auto perhaps = perhaps_better(best);
         if (!perhaps.empty())
             say("Not yet sure: " + listed(perhaps) + (perhaps.size() == 1 ? " is" : " are") +
-                " not resolved, and ahead of it by the samples so far; more time would tell");
+                " not resolved, and ahead of it by the samples so far; more time "
+                "would tell");
         const auto tied = standing(best, Verdict::tied),
                    undecided = standing(best, Verdict::undecided);
         const char* what = is_timed(best) ? "time to 1 % error" : "variance";
@@ -320,7 +325,8 @@ private:
                                              : ""));
             if (s.invalid_samples > 0)
                 say(name(i) + " gave " + std::to_string(s.invalid_samples) +
-                    " samples that are no numbers and were left out: do not trust its figures; "
+                    " samples that are no numbers and were left out: do not trust its "
+                    "figures; "
                     "'" +
                     replay_words(scene_.file, s.strategy, s.first_invalid) +
                     "' with this run's --seed and --resolution shows the first");
@@ -348,19 +354,22 @@ std::vector<std::string> overall_sentences_of(const Report& report)
                      [](const OverallReport& o) { return o.rank_by_efficiency == 1; });
     if (report.scenes.size() < 2) return {};
     if (best == report.overall.end())
-        return {"No strategy was ranked on all scenes, so there is no overall ranking."};
+        return {
+            "No strategy was ranked on all scenes, so there is no overall "
+            "ranking."};
     const std::string use =
         "Over all " + std::to_string(report.scenes.size()) + " scenes use " + best->name + ": ";
-    std::vector<std::string> said{
-        best->time_ratio.value < 1.005
-            ? use + "on each it is among the first to reach 1 % error."
-            : use + "it takes " + with_error(best->time_ratio) +
-                  " times as long to 1 % error as the best of each scene (geometric mean)."};
+    std::vector<std::string> said{best->time_ratio.value < 1.005
+                                      ? use + "on each it is among the first to reach 1 % error."
+                                      : use + "it takes " + with_error(best->time_ratio) +
+                                            " times as long to 1 % error as the best of each scene "
+                                            "(geometric mean)."};
     const std::size_t of = report.scenes[0].strategies.size();
     if (report.overall.size() < of)
         said.push_back("It is ranked among the " + std::to_string(report.overall.size()) + " of " +
                        std::to_string(of) +
-                       " strategies that could be ranked on every scene; on a scene of your own "
+                       " strategies that could be ranked on every scene; on a "
+                       "scene of your own "
                        "another may be better.");
     return said;
 }

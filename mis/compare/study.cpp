@@ -11,6 +11,7 @@
 #include "mis/strategy/names.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -21,6 +22,11 @@ namespace {
 
 /// Of the time given, for the first samples of all strategies.
 constexpr double first_share = 0.6;
+
+/// Of the time given, at most until then: what leaving out effects saves has
+/// been measured; the spread of the samples and the audit are known; the first
+/// samples begin.
+constexpr double savings_until = 0.1, audit_until = 0.5, first_until = 0.9;
 
 std::size_t triangles_of(const Scene& scene)
 {
@@ -39,7 +45,8 @@ public:
         : scene_(scene), strategies_(strategies), options_(options), executor_(executor),
           costs_(strategies.size()), rests_(strategies.size(), false)
     {
-        study_.points = std::make_unique<StudyPoints>(find_study_points(scene, executor));
+        study_.points =
+            std::make_unique<StudyPoints>(find_study_points(scene, stoppable(executor, until(1))));
         study_.runs.resize(strategies.size());
     }
 
@@ -58,7 +65,15 @@ private:
     {
         return options_.seconds.value_or(options_.error ? 1e7 : options_.default_seconds);
     }
-    bool is_stopped() const { return options_.stop != nullptr && *options_.stop; }
+    bool is_stopped() const { return stop_.is_up(); }
+
+    /// Up when the study is stopped, and once that share of its time is over.
+    StopToken until(double share) const
+    {
+        if (options_.spp) return stop_;
+        return stop_.until(start_ + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(share * budget())));
+    }
     std::size_t points() const { return study_.points->figure_lit; }
 
     void start_report()
@@ -77,7 +92,11 @@ private:
         const GBuffer& shading = study_.points->shading;
         report.effects = explained(scene, scene_.effects(),
                                    scene_.tiles_that_call(shading).of(shading.tiles.size()));
-        measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report.effects);
+        try {
+            measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report.effects,
+                            until(savings_until));
+        } catch (const Stopped&) {  // they stay unmeasured
+        }
     }
 
     /// What a first look at the costs allows; a rough picture of the scene, for the weights; how
@@ -89,28 +108,72 @@ private:
             for (std::size_t s = 0; s < strategies_.size(); ++s) start_run(s);
             return;
         }
-        const double cpu = options_.spp ? 1e300 : budget() * executor_.threads;
-        if (!options_.spp) {
-            costs_ = estimate_costs(ground(), strategies_,
+        const double cpu = options_.spp ? 1e300 : budget() * threads();
+        if (!options_.spp)
+            costs_ = estimate_costs(ground(until(first_share)), strategies_,
                                     first_samples * samples_per_observation(), first_share * cpu);
-            plan_.parts = parts_for(sum_of_costs(), cpu);
+        try {
+            for (std::size_t s = 0; s < strategies_.size(); ++s)
+                if (costs_[s].is_affordable) start_run(s);
+            weights_ = rough_weights(ground(until(first_until)));
+            look_ahead(cpu);
+        } catch (const Stopped&) {
+            run_none();
         }
-        std::vector<Strategy> quick;
-        for (std::size_t s = 0; s < strategies_.size(); ++s) {
-            if (!costs_[s].is_affordable) continue;
-            start_run(s);
-            if (costs_[s].seconds < 0.05 * cpu) quick.push_back(strategies_[s]);
-        }
-        if (is_stopped()) return;
-        weights_ = rough_weights(ground());
-        spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, all of twos
-        if (spreads_) tile_factors_ = best_tile_factors(ground(), quick);
-        if (!numbers().is_sobol()) audit_.emplace(ground(), weights_, ran());
+        if (!options_.spp) leave_out_late();
     }
 
-    StudyGround ground()
+    /// Which tiles need more samples than others, and the audit, as far as there
+    /// is time.
+    void look_ahead(double cpu)
     {
-        return {scene_, *study_.points, workspaces_, executor_, options_.seed, options_.stop};
+        try {
+            spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, of twos
+            if (spreads_) tile_factors_ = best_tile_factors(ground(until(audit_until)), quick(cpu));
+            if (!numbers().is_sobol()) audit_.emplace(ground(until(audit_until)), weights_, ran());
+            if (audit_ && audit_->is_empty()) audit_.reset();
+        } catch (const Stopped&) {  // all tiles alike; the report says that there is no audit
+        }
+    }
+
+    /// Those whose first samples take little of the time.
+    std::vector<Strategy> quick(double cpu) const
+    {
+        std::vector<Strategy> strategies;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            if (study_.runs[s] && costs_[s].seconds < 0.05 * cpu)
+                strategies.push_back(strategies_[s]);
+        return strategies;
+    }
+
+    /// The time was over, or the study stopped, before the first sample.
+    void run_none()
+    {
+        for (std::unique_ptr<StrategyRun>& run : study_.runs) run.reset();
+        for (CostEstimate& cost : costs_) cost.is_affordable = false, cost.is_known = false;
+    }
+
+    /// What the set-up has left of the time must do for the first samples.
+    void leave_out_late()
+    {
+        const double left = (budget() - seconds_since(start_)) * threads();
+        keep_affordable(costs_, left);
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            if (!costs_[s].is_affordable) study_.runs[s].reset();
+        plan_.parts = parts_for(sum_of_costs(), std::max(left, 1e-9));
+    }
+
+    /// Those that find work: no more than tiles.
+    int threads() const
+    {
+        return std::max(1, std::min(executor_.threads, static_cast<int>(std::min<std::size_t>(
+                                                           study_.points->figure_tiles, 1 << 20))));
+    }
+
+    /// For work before the first samples, until `stop` is up.
+    StudyGround ground(const StopToken& stop)
+    {
+        return {scene_, *study_.points, workspaces_, executor_, options_.seed, stop};
     }
 
     NumberSource numbers() const { return {options_.seed, options_.samples_per_scrambling}; }
@@ -122,8 +185,8 @@ private:
 
     void start_run(std::size_t s)
     {
-        study_.runs[s] =
-            std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s], numbers());
+        study_.runs[s] = std::make_unique<StrategyRun>(scene_, *study_.points, strategies_[s],
+                                                       numbers(), until(first_until));
     }
 
     std::vector<Strategy> ran() const
@@ -175,7 +238,7 @@ private:
             if (is_stopped()) return;
             if (study_.runs[s] && !rests_[s])
                 study_.runs[s]->sample_round({allocation, first, end, plan_.replicates, !any_rests},
-                                             weights_, workspaces_, executor_);
+                                             weights_, workspaces_, executor_, stop_);
             if (options_.traps_invalid) trap(s);
             show_progress(static_cast<double>(++done) / static_cast<double>(order.size()));
         }
@@ -232,14 +295,14 @@ private:
         if (plan_.remainder > 0)
             for (auto& run : study_.runs)
                 if (run && !is_stopped())
-                    run->sample_apart(plan_.remainder, workspaces_, executor_);
+                    run->sample_apart(plan_.remainder, workspaces_, executor_, stop_);
     }
 
     void run_time()
     {
         if (points() == 0) return;
         double samples = 0, last_look = 0, round_seconds = 0;  // of one sample per replicate
-        while (!is_stopped()) {
+        while (!is_stopped() && any_runs()) {
             const int chunk = next_chunk(static_cast<int>(rounds_) / plan_.parts,
                                          budget() - seconds_since(start_), round_seconds);
             if (chunk == 0) return;
@@ -254,6 +317,12 @@ private:
             if (is_enough()) return;
             if (stops_when_settled()) let_rest();
         }
+    }
+
+    bool any_runs() const
+    {
+        return std::any_of(study_.runs.begin(), study_.runs.end(),
+                           [](const auto& run) { return run != nullptr; });
     }
 
     /// Not resolved yet, but within the time that is left if all goes on as before.
@@ -287,7 +356,10 @@ private:
         std::vector<Strategy> awake;
         for (std::size_t s = 0; s < rests_.size(); ++s)
             if (study_.runs[s] && !rests_[s]) awake.push_back(strategies_[s]);
-        tile_factors_ = best_tile_factors(ground(), awake);
+        try {
+            tile_factors_ = best_tile_factors(ground(until(1)), awake);
+        } catch (const Stopped&) {  // as before
+        }
     }
 
     bool stops_when_settled() const
@@ -336,6 +408,7 @@ private:
         study_.report.replicates = ranking.replicates;
         study_.report.seconds = seconds_since(start_);
         study_.report.lacks_audit = !audit_ && !is_dark();
+        study_.report.had_no_time_for_audit = study_.report.lacks_audit && !numbers().is_sobol();
     }
 
     /// All by one reference, of the means of those that are resolved: first by what takes no
@@ -390,8 +463,7 @@ private:
             StrategyMeasurements m;
             m.strategy = strategies_[s];
             m.was_run = false;
-            m.not_run_reason = costs_[s].is_affordable ? "stopped before its turn"
-                                                       : "past the budget" + first_look_in_words();
+            m.not_run_reason = why_not_run(costs_[s]);
             m.estimated_seconds = costs_[s].seconds;
             return m;
         }
@@ -399,6 +471,15 @@ private:
         m.all_samples_equal_reference = is_dark();
         if (audit_) audit_->add_to(m, study_.runs[s]->results());
         return m;
+    }
+
+    std::string why_not_run(const CostEstimate& cost) const
+    {
+        if (cost.is_affordable || (!cost.is_known && is_stopped()))
+            return "stopped before its turn";
+        if (cost.is_known) return "past the budget" + first_look_in_words();
+        return "past the budget: its tables and its first samples were not ready "
+               "in the time given";
     }
 
     std::string first_look_in_words() const
@@ -427,6 +508,7 @@ private:
     const std::vector<Strategy>& strategies_;
     const StudyOptions& options_;
     const AnyExecutor& executor_;
+    StopToken stop_{options_.stop};
     Clock::time_point start_ = Clock::now();
     Study study_;
     WorkspacePool<float> workspaces_;

@@ -33,15 +33,23 @@ std::size_t affordable_points(const StudyGround& ground, std::span<const Strateg
 
 StudyAudit::StudyAudit(const StudyGround& ground, std::span<const double> weights,
                        std::span<const Strategy> strategies)
-    : points_(spread_points(ground.points, affordable_points(ground, strategies)))
 {
-    std::vector<AuditPoint> at;
-    for (const std::size_t p : points_) {
-        weights_.push_back(weights[p]);
-        at.push_back({ground.points.shading.points[p], material_of(ground.points, p), weights[p]});
-    }
-    const std::vector<AuditEstimate> estimates =
-        audit(ground.scene, at, strategies, ground.seed, ground.executor);
+    const auto audited = [&](std::size_t most) {
+        std::vector<AuditPoint> at;
+        points_ = spread_points(ground.points, most);
+        for (const std::size_t p : points_)
+            at.push_back(
+                {ground.points.shading.points[p], material_of(ground.points, p), weights[p]});
+        return at;
+    };
+    std::vector<AuditPoint> at = audited(affordable_points(ground, strategies));
+    const AuditEffort effort =
+        audit_effort(at.size(), strategies,
+                     lights_along_a_direction(ground.scene, at, ground.seed, ground.stop));
+    if (effort.points < at.size()) at = audited(effort.points);
+    for (const AuditPoint& point : at) weights_.push_back(point.weight);
+    const std::vector<AuditEstimate> estimates = audit(ground.scene, at, strategies, effort.repeats,
+                                                       ground.seed, ground.executor, ground.stop);
     for (std::size_t s = 0; s < strategies.size(); ++s)
         estimates_[name_of(strategies[s])] = estimates[s];
 }

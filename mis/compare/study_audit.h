@@ -14,9 +14,13 @@ namespace mis {
 /// beside what their own samples say there.
 class StudyAudit {
 public:
-    /// weights: 1/(μ² + ε²) of every point of the ground.
+    /// weights: 1/(μ² + ε²) of every point of the ground. Throws Stopped.
     StudyAudit(const StudyGround& ground, std::span<const double> weights,
                std::span<const Strategy> strategies);
+
+    /// Is there none? Where directions meet too many lights, even one point would
+    /// take long.
+    bool is_empty() const { return points_.empty(); }
 
     /// results: of the strategy that `m` is of, at every point. Nothing is added where the audit
     /// has nothing to say, or a point that was audited has not been sampled twice.

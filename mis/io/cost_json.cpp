@@ -79,6 +79,7 @@ OrderedJson scene_json(const CostSceneReport& s)
                        {"samples", s.reference.samples},
                        {"error", json_figure(s.reference.error)},
                        {"agrees", s.reference.agrees}}}};
+    put_setup(json, s.setup);
     json["strategies"] = OrderedJson::array();
     for (const CostCurveReport& c : s.curves) json["strategies"].push_back(curve_json(c));
     json["crossings"] = OrderedJson::array();
@@ -156,8 +157,10 @@ std::string cost_json(const CostReport& report)
 std::string cost_csv(const CostReport& report)
 {
     std::string text =
-        "scene,file,strategy,precision,kind,samples,error,error_low,error_high,seconds,seconds_low,"
-        "seconds_high,mark,slope,slope_low,slope_high,slope_in_time,slope_in_time_low,"
+        "scene,file,strategy,precision,kind,samples,error,error_"
+        "low,error_high,seconds,seconds_low,"
+        "seconds_high,mark,slope,slope_low,slope_high,slope_in_"
+        "time,slope_in_time_low,"
         "slope_in_time_high,reason,gain,gain_low,gain_high\r\n";
     for (const CostSceneReport& scene : report.scenes)
         for (const CostCurveReport& curve : scene.curves) text += rows(scene, curve);

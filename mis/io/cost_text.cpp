@@ -32,7 +32,8 @@ std::string heading(const CostSceneReport& s, int threads)
     if (s.copies > 1) text += fmt::format(" of {} copies", s.copies);
     if (s.is_sobol) text += ", each a scrambled Sobol' sequence";
     text += fmt::format(", times on {}, {}{}", many(static_cast<std::size_t>(threads), "thread"),
-                        short_duration(s.seconds), s.partial ? ", stopped early" : "");
+                        short_duration(s.seconds) + setup_text(s.setup),
+                        s.partial ? ", stopped early" : "");
     return wrapped(text);
 }
 

@@ -26,6 +26,14 @@ OrderedJson json_resolution(int width, int height)
     return width > 0 ? OrderedJson{width, height} : OrderedJson(nullptr);
 }
 
+void put_setup(OrderedJson& json, const std::optional<SetupSeconds>& setup)
+{
+    if (!setup) return;
+    json["setup_seconds"] = {{"reading", json_figure(setup->reading)},
+                             {"surfaces", json_figure(setup->surfaces)},
+                             {"lights", json_figure(setup->lights)}};
+}
+
 OrderedJson json_identity(const Strategy& s)
 {
     return {{"name", name_of(s)},

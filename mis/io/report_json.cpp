@@ -93,6 +93,7 @@ OrderedJson scene(const SceneReport& s, const Report& report)
                      {"settled", s.settled},
                      {"partial", s.partial},
                      {"seconds", json_figure(s.seconds)}};
+    put_setup(json, s.setup);
     json["effects"] = OrderedJson::object();
     for (const EffectPlan& e : s.effects) json["effects"][e.name] = effect(e);
     json["strategies"] = OrderedJson::array();

@@ -227,6 +227,8 @@ SceneReport read_scene(const JsonNode& node)
     s.settled = truth(node["settled"]);
     s.partial = truth(node["partial"]);
     s.seconds = size(node["seconds"]);
+    if (const auto setup = node.find("setup_seconds"))
+        s.setup = {size((*setup)["reading"]), size((*setup)["surfaces"]), size((*setup)["lights"])};
     const JsonNode effects = node["effects"];
     effects.require_object();
     for (const auto& [name, value] : effects.value().items())

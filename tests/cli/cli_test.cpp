@@ -400,6 +400,30 @@ TEST(CommandLine, GoesOnWhereStandardErrorCannotBeWritten)
     }
 }
 
+/// The scene comes through a pipe that is not closed: the program has read from it, as more was
+/// written than a pipe holds, and waits for more when the signal comes.
+TEST(CommandLine, EndsOnASignalWhileItReads)
+{
+    for (const char* signal : {"INT", "TERM"})
+        for (const char* words :
+             {"compare pipe", "render pipe --strategy brdf --out o.exr", "cost pipe",
+              "explain pipe", "predict pipe", "replay pipe --strategy brdf --point 0 --sample 0"}) {
+            const TemporaryFolder folder;
+            const std::string script =
+                "cd '" + (folder / ".").string() + "'; mkfifo pipe; exec 3<>pipe; '" +
+                program_file().string() + "' " + words +
+                " >out 2>error 3>&- & p=$!; exec 3>pipe; printf '%300000s' '' >&3; kill -" +
+                signal + " $p; exec 3>&-; wait $p";
+            const int status = std::system(script.c_str());
+            EXPECT_EQ(WEXITSTATUS(status), 130) << words;
+            EXPECT_EQ(text_of((folder / "out").string()), "") << words;
+            EXPECT_NE(text_of((folder / "error").string())
+                          .find("interrupted before there was a result; nothing was written"),
+                      std::string::npos)
+                << words;
+        }
+}
+
 TEST(CommandLine, ReplaysASampleStageByStage)
 {
     const Outcome run =
