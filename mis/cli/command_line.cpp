@@ -107,7 +107,10 @@ void add_stop_options(CLI::App& command, StopOptions& options, const std::string
     command.add_option("--spp", options.spp, "samples per shading point")
         ->check(samples_fault)
         ->type_name("N");
-    command.add_option("--time", options.seconds, "seconds of wall time")->type_name("S");
+    command
+        .add_option("--time", options.seconds,
+                    "seconds of wall time, after reading and building trees")
+        ->type_name("S");
     command.add_option("--error", options.error, error)->type_name("E");
 }
 
@@ -190,7 +193,9 @@ void add_cost(CLI::App& app, CostCommandOptions& options)
     c.add_option("--spp", options.stop.spp, "samples per shading point of the last doubling")
         ->check(samples_fault)
         ->type_name("N");
-    c.add_option("--time", options.stop.seconds, "seconds of wall time (30)")->type_name("S");
+    c.add_option("--time", options.stop.seconds,
+                 "seconds of wall time, after reading and building trees (30)")
+        ->type_name("S");
     add_run_options(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {

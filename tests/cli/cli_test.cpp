@@ -412,8 +412,8 @@ TEST(CommandLine, EndsOnASignalWhileItReads)
             const std::string script =
                 "cd '" + (folder / ".").string() + "'; mkfifo pipe; exec 3<>pipe; '" +
                 program_file().string() + "' " + words +
-                " >out 2>error 3>&- & p=$!; exec 3>pipe; printf '%300000s' '' >&3; kill -" +
-                signal + " $p; exec 3>&-; wait $p";
+                " >out 2>error 3>&- & p=$!; printf '%300000s' '' >&3; kill -" + signal +
+                " $p; exec 3>&-; wait $p";
             const int status = std::system(script.c_str());
             EXPECT_EQ(WEXITSTATUS(status), 130) << words;
             EXPECT_EQ(text_of((folder / "out").string()), "") << words;
