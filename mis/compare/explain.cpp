@@ -40,6 +40,7 @@ void count_points(Explanation& found, const LitScene& lit, const GBuffer& shadin
     sums.add(lit.tiles_that_call(shading));
     found.shading_points += shading.points.size() + shading.dark.size();
     found.dark_points += shading.dark.size();
+    found.counts.add(shading.counts);
     found.background_pixels += shading.background.size();
     found.tiles += shading.tiles.size();
     for (const Tile& tile : shading.tiles)

@@ -41,6 +41,7 @@ struct Found {
     std::map<int, std::vector<ShadingPoint>> by_material;
     std::vector<std::uint32_t> dark;
     std::vector<Background> background;
+    PointCounts counts;
 };
 
 /// Are all lights below the point's tangent plane, by more than the rounding of its normal?
@@ -60,8 +61,11 @@ bool faces_no_light(const ShadingPoint& point, const Lights& lights)
 void add_point(Found& found, const ShadingPoint& point, int material, const Lights& all,
                const LightHierarchy& lights)
 {
-    if (!(dot(point.n, point.wo) > 0) || lights.contains(point.x) || faces_no_light(point, all))
-        found.dark.push_back(point.id);
+    std::size_t* reason = nullptr;
+    if (!(dot(point.n, point.wo) > 0)) reason = &found.counts.seen_from_below;
+    else if (lights.contains(point.x)) reason = &found.counts.inside_light;
+    else if (faces_no_light(point, all)) reason = &found.counts.facing_no_light;
+    if (reason != nullptr) ++*reason, found.dark.push_back(point.id);
     else found.by_material[material].push_back(point);
 }
 
@@ -79,11 +83,15 @@ void add_pixel(Found& found, const Scene& scene, const PixelRays& rays,
         found.background.push_back({id, light.light});
         return;
     }
+    const std::size_t dark = found.dark.size();
     const Vec3<double> off = hit->x + hit->geometric * hit->offset;
     add_point(found,
               {hit->x, vec_cast<float>(hit->n), vec_cast<float>(-direction),
                vec_cast<float>(off - surfaces->origin()), id},
               hit->material, scene.lights, lights);
+    if (!hit->is_n_behind()) return;
+    ++found.counts.turned_normals;
+    found.counts.turned_and_dark += found.dark.size() - dark;
 }
 
 void append(GBuffer& buffer, const Found& found)
@@ -97,6 +105,7 @@ void append(GBuffer& buffer, const Found& found)
     buffer.dark.insert(buffer.dark.end(), found.dark.begin(), found.dark.end());
     buffer.background.insert(buffer.background.end(), found.background.begin(),
                              found.background.end());
+    buffer.counts.add(found.counts);
 }
 
 }  // namespace

@@ -26,6 +26,23 @@ struct Background {
     LightIndex light;  ///< that the camera sees there, or no_light
 };
 
+/// Of what there is to say about some points, how many it is true of.
+struct PointCounts {
+    std::size_t seen_from_below = 0;  ///< dark: n·wo ≤ 0
+    std::size_t inside_light = 0;     ///< dark: in a light or on it, and not seen from below
+    std::size_t facing_no_light = 0;  ///< dark: above all lights, and neither of the two
+    std::size_t turned_normals = 0;   ///< SurfaceHit::is_n_behind(); lit or dark
+    std::size_t turned_and_dark = 0;  ///< of these, the dark ones
+
+    /// Those of other points, too.
+    void add(const PointCounts& other)
+    {
+        seen_from_below += other.seen_from_below, inside_light += other.inside_light;
+        facing_no_light += other.facing_no_light, turned_normals += other.turned_normals;
+        turned_and_dark += other.turned_and_dark;
+    }
+};
+
 /// The shading points of a scene, found once and kept, cut into tiles. Random numbers go by a
 /// point's id: its pixel's number, or after all pixels the probe's.
 struct GBuffer {
@@ -36,6 +53,7 @@ struct GBuffer {
     std::vector<std::uint32_t> dark;   ///< ids of points that see no light: inside one, seen from
                                        ///< below, or above all of them
     std::vector<Background> background;
+    PointCounts counts = {};
 };
 
 /// Points per tile at most: a square of pixels.

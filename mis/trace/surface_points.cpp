@@ -38,7 +38,7 @@ SurfaceHit facing(const Vec3<double>& x, Vec3<double> geometric, Vec3<double> n,
                   double offset, const Vec3<double>& direction, int material)
 {
     if (dot(geometric, direction) > 0) geometric = -geometric;
-    if (dot(n, geometric) < 0) n = -n;
+    if (dot(n, direction) > 0) n = -n;
     return {x, geometric, n, distance, offset, material};
 }
 

@@ -14,9 +14,9 @@ struct SurfaceLocation {
     std::uint32_t triangle = 0;
 };
 
-/// The hit of a ray with the surface at `location`, in double, with normals turned to the ray's
-/// origin. Nothing where the ray misses its plane or sphere altogether; beyond an edge, by
-/// rounding, the plane counts. frame_origin: SurfaceTracer::origin().
+/// The hit of a ray with the surface at `location`, in double, with both normals turned to the
+/// ray's origin, each for itself. Nothing where the ray misses its plane or sphere altogether;
+/// beyond an edge, by rounding, the plane counts. frame_origin: SurfaceTracer::origin().
 std::optional<SurfaceHit> hit_at(const Scene& scene, const SurfaceLocation& location,
                                  const Vec3<double>& origin, const Vec3<double>& direction,
                                  const Vec3<double>& frame_origin);

@@ -20,11 +20,15 @@ struct ShadowRay {
 struct SurfaceHit {
     Vec3<double> x;          ///< on the surface, in double
     Vec3<double> geometric;  ///< unit normal of the surface, towards the ray's origin
-    Vec3<double> n;          ///< unit shading normal, on the same side
+    Vec3<double> n;          ///< unit shading normal, towards the ray's origin, too
     double distance;         ///< along the ray
     double offset;  ///< how far a ray that starts at x must be moved off this surface to miss it;
                     ///< scene units
     int material;   ///< index into Scene::materials
+
+    /// Does n lean to the side of the surface that is not seen? On a coarse mesh with smooth
+    /// normals it does along the outline: turned to the viewer, it is turned off the surface.
+    bool is_n_behind() const { return dot(n, geometric) < 0; }
 };
 
 /// What surfaces do to rays; an embedder may bring his own. Lights are no surfaces: trace/lights.h.
