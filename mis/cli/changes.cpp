@@ -6,6 +6,7 @@
 #include "mis/io/changes_text.h"
 #include "mis/io/report_peek.h"
 #include "mis/io/report_read.h"
+#include "mis/io/text_file.h"
 
 #include <fmt/format.h>
 
@@ -20,11 +21,13 @@ void check_changes(const CompareOptions& options)
 {
     const std::vector<std::string>& files = options.scenes;
     const auto scene = std::find_if_not(files.begin(), files.end(), is_report_file);
-    if (scene != files.end())
+    if (scene != files.end()) {
+        require_utf8(read_text_file(*scene, "report"), *scene);  // else that is what is wrong
         throw UsageError(fmt::format(
             "{}: found a report among scenes; give scenes alone, or two reports alone\n    {} is "
             "none.",
             *std::find_if(files.begin(), files.end(), is_report_file), *scene));
+    }
     if (files.size() != 2)
         throw UsageError(fmt::format(
             "{}: found {}; two are compared, the older and the newer", files[0],

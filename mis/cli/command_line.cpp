@@ -64,8 +64,8 @@ std::function<std::string(const std::string&)> refuse_empty(const std::string& a
     };
 }
 
-/// --threads, --seed, --quiet, --resolution, --effects, --sampler.
-void add_run_options(CLI::App& command, RunOptions& options)
+/// --threads, --seed, --quiet, --resolution, --effects; --sampler where samples are drawn.
+void add_run_options(CLI::App& command, RunOptions& options, bool draws_samples = true)
 {
     command.add_option("--threads", options.threads,
                        "threads to run on (0: as many as the machine has)");
@@ -80,21 +80,27 @@ void add_run_options(CLI::App& command, RunOptions& options)
                     "auto: only what the scene and each tile of it call for; all: everything; "
                     "NAME=off: auto, and refused where the scene calls for that effect")
         ->capture_default_str();
-    command
-        .add_option(
-            "--sampler", options.sampler,
-            "independent: random numbers; sobol: scrambled sequences, whose samples spread evenly")
-        ->capture_default_str();
+    if (draws_samples)
+        command
+            .add_option("--sampler", options.sampler,
+                        "independent: random numbers; sobol: scrambled sequences, whose samples "
+                        "spread evenly")
+            ->capture_default_str();
     command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
 }
 
-void add_output_options(CLI::App& command, OutputOptions& options)
+void add_json_option(CLI::App& command, OutputOptions& options)
 {
     command
         .add_option("--json", options.json,
                     "write the figures as JSON to FILE, or - for standard output")
         ->check(refuse_empty("a file, or - for standard output,"))
         ->type_name("FILE");
+}
+
+void add_output_options(CLI::App& command, OutputOptions& options)
+{
+    add_json_option(command, options);
     command
         .add_option("--csv", options.csv,
                     "write the figures as CSV to FILE, or - for standard output")
@@ -228,9 +234,10 @@ void add_explain(CLI::App& app, ExplainOptions& options)
     CLI::App& c =
         *app.add_subcommand("explain", "what a scene is made of, and which effects it calls for");
     c.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
-    add_run_options(c, options.run);
-    add_output_options(c, options.output);
-    c.footer("Example:\n  mis explain scenes/street.json");
+    add_run_options(c, options.run, false);
+    add_json_option(c, options.output);
+    c.footer(
+        "Examples:\n  mis explain scenes/street.json\n  mis explain scenes/street.json --json -");
 }
 
 void add_replay(CLI::App& app, ReplayOptions& options)
@@ -320,11 +327,25 @@ void check_command(const CLI::App& app, int argc, char** argv)
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(command->get_name());
     const std::vector<std::string_view> known(names.begin(), names.end());
-    if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return;
-    const std::string_view near = nearest_name(argv[1], known);
-    throw UsageError(
-        fmt::format("found command \"{}\"; known are {}{}", argv[1], comma_list(known),
-                    near.empty() ? "" : fmt::format("\n    Did you mean \"{}\"?", near)));
+    if (std::find(known.begin(), known.end(), argv[1]) == known.end())
+        refuse_name("found command", argv[1], known);
+}
+
+/// Throws UsageError where a word looks like an option, and the command has none of that name.
+void check_options_known(const CLI::App& command, int argc, char** argv)
+{
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    for (int i = 2; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--") return;
+        const std::string name = word.substr(0, word.find('='));
+        if (!word.starts_with("--") || std::find(known.begin(), known.end(), name) != known.end())
+            continue;
+        refuse_name(command.get_name() + ": found option", name, known);
+    }
 }
 
 }  // namespace
@@ -352,6 +373,8 @@ int run_command_line(int argc, char** argv)
     ReplayOptions replay;
     add_replay(app, replay);
     check_command(app, argc, argv);
+    if (argc > 1 && argv[1][0] != '-')
+        check_options_known(*app.get_subcommand(argv[1]), argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

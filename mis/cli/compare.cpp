@@ -129,6 +129,8 @@ int run_compare(const CompareOptions& options)
                                       study_options(options, progress), ready.executor);
         progress.clear();
         if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
+        const std::size_t turned = study.points->shading.counts.turned_normals;
+        if (turned > 0 && !options.run.quiet) remark("{}", turned_normals_message(turned));
         report.scenes.push_back(study.report);
         if (!options.out.empty())
             maps.push_back(ready.scene.camera ? std::optional(maps_of(ready.lit, study, options.at,

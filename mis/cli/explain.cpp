@@ -8,8 +8,6 @@ namespace mis::cli {
 
 int run_explain(const ExplainOptions& options)
 {
-    if (!options.output.csv.empty())
-        throw UsageError("--csv: explain has no table of figures; it has --json");
     check(options.output);
     const ReadyScene ready(options.scene, options.run);
     const Explanation explanation = explain(ready.lit, ready.executor);

@@ -69,6 +69,7 @@ struct Outcome {
     Image image;
     std::uint64_t samples = 0, invalid = 0;  ///< samples: per shading point
     std::size_t shading_points = 0;
+    std::size_t turned_normals = 0;
     std::optional<PictureError> error;  ///< not of a picture in several bands
     bool is_partial = false;
     std::optional<int> unlit_from;  ///< first row without samples, where interrupted before them
@@ -103,6 +104,7 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
         const ExactShare here = exact_share(ready.lit, band.shading);
         share.exact += here.exact, share.points += here.points;
         share.exact_tiles += here.exact_tiles, share.tiles += here.tiles;
+        outcome.turned_normals += band.shading.counts.turned_normals;
         if (share.is_all()) {
             light_exactly(ready.lit, band, ready.executor);
             draw_band(ready.lit, band, outcome.image);
@@ -147,6 +149,7 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
                 (row + double(band.shading.rows) * double(s + step) / double(spp)) / height);
         }
         outcome.shading_points += band.results.size() + band.shading.dark.size();
+        outcome.turned_normals += band.shading.counts.turned_normals;
         draw_band(ready.lit, band, outcome.image);
         if (band.shading.rows == height) {
             outcome.samples = sampled;
@@ -169,6 +172,7 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     WorkspacePool<float> workspaces;
     Band band = find_band(ready.lit, 0, outcome.image.height, ready.executor);
     outcome.shading_points = band.results.size() + band.shading.dark.size();
+    outcome.turned_normals = band.shading.counts.turned_normals;
     int count = 4;
     bool is_done = false;
     while (!is_done) {
@@ -258,6 +262,7 @@ void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strate
     if (is_sobol && !std::has_single_bit(outcome.samples) && !outcome.is_partial)
         remark("{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
                outcome.samples);
+    if (outcome.turned_normals > 0) remark("{}", turned_normals_message(outcome.turned_normals));
     if (outcome.invalid > 0) remark("{} samples were not finite and count as 0\n", outcome.invalid);
 }
 
@@ -291,13 +296,12 @@ int run_render(const RenderOptions& options)
     if (outcome.shading_points == 0 && !outcome.is_partial)
         throw UsageError(no_points_message(ready.scene));
     write_exr(options.out, outcome.image,
-              {{"Software", std::string("mis ") + MIS_VERSION},
-               {"mis/command", options.run.command_line},
-               {"mis/strategy", strategy ? name_of(*strategy) : "exact"},
-               {"mis/seed", std::to_string(options.run.seed)},
-               {"mis/sampler", options.run.sampler},
-               {"mis/samples_per_point", std::to_string(outcome.samples)},
-               {"mis/partial", outcome.is_partial ? "true" : "false"}});
+              ExrMetadata(MIS_VERSION, options.run.command_line, options.run.seed)
+                  .add("scene", ready.scene.name)
+                  .add("strategy", strategy ? name_of(*strategy) : "exact")
+                  .add("sampler", options.run.sampler)
+                  .add("samples_per_point", std::to_string(outcome.samples))
+                  .add("partial", outcome.is_partial ? "true" : "false"));
     if (!options.run.quiet) print_outcome(outcome, strategy, options, seconds_since(start));
     return outcome.is_partial ? interrupted : ok;
 }

@@ -1,7 +1,6 @@
 #include "mis/cli/strategy_list.h"
 
 #include "mis/cli/options.h"
-#include "mis/scene/nearest_name.h"
 #include "mis/strategy/names.h"
 
 #include <algorithm>
@@ -78,12 +77,9 @@ std::vector<std::string> names_listed(const std::string& option,
 {
     const std::vector<std::string> names = split_list(given.value_or(otherwise), option);
     const std::vector<std::string_view> views(known.begin(), known.end());
-    for (const std::string& name : names) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string_view near = nearest_name(name, views);
-        throw UsageError(option + ": found \"" + name + "\"; known are " + comma_list(views) +
-                         (near.empty() ? "" : "\n    Did you mean \"" + std::string(near) + "\"?"));
-    }
+    for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            refuse_name(option + ": found", name, views);
     return names;
 }
 

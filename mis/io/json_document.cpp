@@ -1,5 +1,6 @@
 #include "mis/io/json_document.h"
 
+#include "mis/io/json_faults.h"
 #include "mis/io/scene_error.h"
 #include "mis/io/text_file.h"
 #include "mis/scene/text.h"
@@ -161,16 +162,24 @@ private:
         std::string reason(message.substr(start == message.npos ? 0 : start + lead.size()));
         if (echo_start != message.npos)
             reason = message.substr(start + lead.size(), echo_start - start - lead.size());
+        if (byte < text_.size())
+            if (const auto fault = known_json_fault(text_, byte, reason))
+                fail_at(fault->byte, fault->found, fault->allowed, fault->remedy);
         const bool token_is_exact =
             reason.find("string") != reason.npos || reason.find("number") != reason.npos;
+        fail_at(byte,
+                byte >= text_.size()
+                    ? "the end of the text"
+                    : in_quotes(token_is_exact && !is_mark(byte) ? token : word_at(byte)),
+                fmt::format("this is not JSON ({})", reason), syntax_remedy(byte));
+    }
+
+    [[noreturn]] void fail_at(std::size_t byte, const std::string& found,
+                              const std::string& allowed, const std::string& remedy) const
+    {
         const auto [line, column] = place_in(text_, byte);
-        throw SceneError(
-            file_.string(),
-            Problem{fmt::format("line {}, column {}", line, column),
-                    byte >= text_.size()
-                        ? "the end of the text"
-                        : in_quotes(token_is_exact && !is_mark(byte) ? token : word_at(byte)),
-                    fmt::format("this is not JSON ({})", reason), syntax_remedy(byte)});
+        throw SceneError(file_.string(), Problem{fmt::format("line {}, column {}", line, column),
+                                                 found, allowed, remedy});
     }
 
     bool is_mark(std::size_t byte) const
@@ -181,14 +190,8 @@ private:
     /// The word around a byte, or the byte if it belongs to none.
     std::string word_at(std::size_t byte) const
     {
-        const auto in_word = [this](std::size_t i) {
-            return i < text_.size() && std::isalnum(static_cast<unsigned char>(text_[i]));
-        };
-        if (!in_word(byte)) return std::string(text_.substr(byte, 1));
-        std::size_t first = byte, end = byte;
-        while (first > 0 && in_word(first - 1)) --first;
-        while (in_word(end)) ++end;
-        return std::string(text_.substr(first, end - first));
+        const bool is_in_word = std::isalnum(static_cast<unsigned char>(text_[byte])) != 0;
+        return std::string(is_in_word ? word_around(text_, byte) : text_.substr(byte, 1));
     }
 
     std::string syntax_remedy(std::size_t byte) const
@@ -197,6 +200,9 @@ private:
         const bool closing = byte < text_.size() && (text_[byte] == '}' || text_[byte] == ']');
         if (closing && last != text_.npos && text_[last] == ',')
             return "Remove the comma before it.";
+        const std::string_view before = text_.substr(0, byte);
+        if (before.substr(before.find_last_of("\r\n") + 1).find("\\\"") != before.npos)
+            return "In \\\" the quote is part of the text. Write paths with /, or each \\ as \\\\.";
         return "Look for a missing comma, quote or bracket there, or just before.";
     }
 

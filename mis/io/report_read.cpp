@@ -4,6 +4,7 @@
 #include "mis/io/json_node.h"
 #include "mis/io/report_json.h"
 #include "mis/io/text_file.h"
+#include "mis/scene/nearest_name.h"
 
 #include <nlohmann/json.hpp>
 
@@ -70,12 +71,13 @@ template <class Read> auto list_of(const JsonNode& node, const Read& read)
 template <class Value, std::size_t N, class Name>
 Value one_of(const JsonNode& node, const std::array<Value, N>& values, const Name& name)
 {
-    std::string known;
-    for (const Value value : values) {
-        if (node.string() == name(value)) return value;
-        known += (known.empty() ? "" : ", ") + std::string(name(value));
+    std::array<std::string_view, N> known;  // NOLINT: filled at once
+    for (std::size_t i = 0; i < N; ++i) {
+        known[i] = name(values[i]);
+        if (node.string() == known[i]) return values[i];
     }
-    node.fail_value("known are " + known, node.guide());
+    node.fail_value("known are " + comma_list(known),
+                    did_you_mean(node.string(), known, node.guide()));
 }
 
 Status status(const JsonNode& node)

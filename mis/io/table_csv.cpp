@@ -35,6 +35,25 @@ std::string_view take_until(char separator, std::string_view& rest)
     return taken;
 }
 
+/// What else tables are separated by, if the text has any: "semicolons", …; or nothing.
+std::string_view other_separator(std::string_view text)
+{
+    if (text.find(';') != text.npos) return "semicolons";
+    if (text.find('\t') != text.npos) return "tabs";
+    return text.find('|') != text.npos ? "bars" : "";
+}
+
+bool is_quoted(std::string_view field) { return field.find_first_of("\"'") != field.npos; }
+
+/// The number that the whole text is: its fault, if it is none.
+std::errc read_double(std::string_view text, double& number)
+{
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error == std::errc::result_out_of_range) return error;
+    const bool is_whole = error == std::errc{} && end == text.data() + text.size();
+    return is_whole && std::isfinite(number) ? std::errc{} : std::errc::invalid_argument;
+}
+
 using Fields = std::array<std::string_view, column_count>;
 
 /// The number of fields of a row; those that fit go to `fields`.
@@ -62,6 +81,7 @@ public:
 
     void append_to(Lights& lights)
     {
+        require_line_feeds();
         read_header();
         if (rest_.empty())
             fail("", "a header and no rows", "a table has at least one light", "Add a row.");
@@ -94,19 +114,56 @@ private:
         return take_until('\n', rest_);
     }
 
+    /// Old Macs' line ends would make one line of the table, or blanks of them.
+    void require_line_feeds()
+    {
+        std::size_t at = 0, lines = 1;
+        while ((at = rest_.find_first_of("\r\n", at)) != rest_.npos) {
+            const bool is_feed = rest_[at] == '\n' || rest_.substr(at + 1).starts_with('\n');
+            if (!is_feed) {
+                line_ = lines;
+                fail("", "a carriage return (CR) that ends the line", "a line ends in LF or CR LF",
+                     "Save the table with the line ends of Unix or Windows.");
+            }
+            lines += rest_[at] == '\n' ? 1 : 0, ++at;
+        }
+    }
+
+    /// What is no name of a column at all.
+    void check_header(std::string_view header, const std::string& allowed) const
+    {
+        if (is_quoted(header))
+            fail("", "a header in quotes: " + in_quotes(header), allowed + ", without quotes",
+                 "Remove the quotes; in R: write.csv(..., quote = FALSE, row.names = FALSE).");
+        if (header.find(',') == header.npos) {
+            const std::string_view separator = other_separator(header);
+            fail("",
+                 "the header " + in_quotes(header) +
+                     (separator.empty() ? "" : ", separated by " + std::string(separator)),
+                 allowed, "Separate the columns by commas, and write 0.5, not 0,5.");
+        }
+        double number = 0;
+        if (read_double(trimmed(header.substr(0, header.find(','))), number) == std::errc{})
+            fail("", "numbers where the header belongs", allowed,
+                 "Begin with the line x,y,z,radius,r,g,b.");
+    }
+
     void read_header()
     {
         std::string_view header = trimmed(next_line());
         const std::string allowed =
             "the columns are " + comma_list(scene_keys::columns) + ", in any order";
-        if (header.find(',') == header.npos)
-            fail("", "the header " + in_quotes(header), allowed, "Separate the columns by commas.");
+        check_header(header, allowed);
         std::array<bool, column_count> seen{};
         for (bool more = true; more;) {
             more = header.find(',') != header.npos;
             const std::string_view name = trimmed(take_until(',', header));
             const auto column =
                 std::find(scene_keys::columns.begin(), scene_keys::columns.end(), name);
+            if (name.empty())
+                fail("", fmt::format("no name for column {}", order_.size() + 1), allowed,
+                     "Remove the column: row names, in R by row.names = FALSE, in pandas by "
+                     "index=False.");
             if (column == scene_keys::columns.end())
                 fail("", "the unknown column " + in_quotes(name), allowed,
                      did_you_mean(name, scene_keys::columns, "Remove it."));
@@ -127,13 +184,15 @@ private:
     {
         const std::string_view text = trimmed(field);
         double number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        const std::errc error = read_double(text, number);
         if (error == std::errc::result_out_of_range)
             fail(column, in_quotes(text), "a number lies within the range of a double",
                  "Use other units.");
-        if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number))
+        if (error != std::errc{})
             fail(column, in_quotes(text), "a finite number belongs here",
-                 "Write it as 0.5 or 1e-3.");
+                 is_quoted(text)         ? "Write it without quotes."
+                 : text.starts_with('+') ? "Write it without the +."
+                                         : "Write it as 0.5 or 1e-3.");
         return number;
     }
 
@@ -142,10 +201,17 @@ private:
         const std::string_view row = next_line();
         Fields fields;
         const std::size_t count = split(row, fields);
-        if (count != column_count)
-            fail("", trimmed(row).empty() ? "an empty line" : fmt::format("{} fields", count),
+        if (count != column_count) {
+            const std::string_view separator = other_separator(trimmed(row));
+            fail("",
+                 trimmed(row).empty()
+                     ? "an empty line"
+                     : fmt::format("{} {}{}", count, count == 1 ? "field" : "fields",
+                                   separator.empty() ? "" : " and " + std::string(separator)),
                  fmt::format("a row has {} fields, as the header has", column_count),
-                 "Mend or remove the line.");
+                 separator.empty() ? "Mend or remove the line."
+                                   : "Separate the fields by commas, and write 0.5, not 0,5.");
+        }
         std::array<double, column_count> values;
         for (std::size_t i = 0; i < column_count; ++i)
             values[order_[i]] = read_number(fields[i], scene_keys::columns[order_[i]]);
@@ -171,6 +237,7 @@ private:
 
 void append_light_table(std::string_view text, const std::filesystem::path& file, Lights& to)
 {
+    require_utf8(text, file);
     TableReader(text, file).append_to(to);
 }
 

@@ -1,5 +1,6 @@
 #include "mis/io/text_file.h"
 
+#include "mis/io/encoding.h"
 #include "mis/io/scene_error.h"
 
 #include <fmt/format.h>
@@ -27,30 +28,6 @@ namespace {
     fail_on(file, fmt::format("more than {} bytes", limits::scene_file_bytes),
             fmt::format("a {} has at most {} bytes", kind, limits::scene_file_bytes),
             fmt::format("Split the {}.", kind));
-}
-
-/// Bytes of the UTF-8 character at the start of `rest`; 0 if there is none (RFC 3629: no overlong
-/// forms, no surrogates).
-std::size_t utf8_length(std::string_view rest)
-{
-    const auto byte = [&](std::size_t i) {
-        return i < rest.size() ? static_cast<unsigned char>(rest[i]) : 0u;
-    };
-    const auto follows = [&](std::size_t i, unsigned low = 0x80, unsigned high = 0xBF) {
-        return byte(i) >= low && byte(i) <= high;
-    };
-    const unsigned first = byte(0);
-    if (first < 0x80) return 1;
-    if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-    if (first >= 0xE0 && first <= 0xEF) {
-        const unsigned low = first == 0xE0 ? 0xA0 : 0x80, high = first == 0xED ? 0x9F : 0xBF;
-        return follows(1, low, high) && follows(2) ? 3 : 0;
-    }
-    if (first >= 0xF0 && first <= 0xF4) {
-        const unsigned low = first == 0xF0 ? 0x90 : 0x80, high = first == 0xF4 ? 0x8F : 0xBF;
-        return follows(1, low, high) && follows(2) && follows(3) ? 4 : 0;
-    }
-    return 0;
 }
 
 }  // namespace
@@ -92,25 +69,28 @@ std::string read_text_file(const std::filesystem::path& file, std::string_view k
 TextPlace place_in(std::string_view text, std::size_t byte)
 {
     const std::string_view before = text.substr(0, byte);
-    const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-    return {static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1,
-            before.size() - line_start + 1};
+    TextPlace place{1, 1};
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const bool is_return_alone = before[i] == '\r' && !text.substr(i + 1).starts_with('\n');
+        if (before[i] == '\n' || is_return_alone) ++place.line, place.column = 1;
+        else ++place.column;
+    }
+    return place;
 }
 
 void require_utf8(std::string_view text, const std::filesystem::path& file)
 {
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = text[i] == '\0' ? 0 : utf8_length(text.substr(i, 4));
-        if (length == 0) {
-            const auto [line, column] = place_in(text, i);
-            throw SceneError(
-                file.string(),
-                Problem{fmt::format("line {}, column {}", line, column),
-                        fmt::format("byte 0x{:02X}", static_cast<unsigned char>(text[i])),
-                        "the text is UTF-8, without zero bytes", "Save it as UTF-8."});
-        }
-        i += length;
-    }
+    if (const std::string_view encoding = other_encoding(text); !encoding.empty())
+        fail_on(
+            file, std::string(encoding), "the text is UTF-8, without zero bytes",
+            encoding.starts_with("UTF") ? "Save it as UTF-8." : "Unpack it, or save it as text.");
+    const std::size_t wrong = first_not_utf8(text);
+    if (wrong == text.size()) return;
+    const auto [line, column] = place_in(text, wrong);
+    throw SceneError(file.string(),
+                     Problem{fmt::format("line {}, column {}", line, column),
+                             fmt::format("byte 0x{:02X}", static_cast<unsigned char>(text[wrong])),
+                             "the text is UTF-8, without zero bytes", "Save it as UTF-8."});
 }
 
 std::string in_quotes(std::string_view text)

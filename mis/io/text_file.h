@@ -11,13 +11,15 @@ namespace mis {
 /// lights".
 std::string read_text_file(const std::filesystem::path& file, std::string_view kind);
 
-/// A place in a text, counted from 1, as editors show it; columns count bytes.
+/// A place in a text, counted from 1, as editors show it; columns count bytes. A line ends by LF,
+/// CR LF, or CR.
 struct TextPlace {
     std::size_t line, column;
 };
 TextPlace place_in(std::string_view text, std::size_t byte);
 
-/// Throws SceneError at the first byte of `text` that is not UTF-8, or that is a zero byte.
+/// Throws SceneError at the first byte of `text` that is not UTF-8, or that is a zero byte; what is
+/// UTF-16, UTF-32 or packed is called so.
 void require_utf8(std::string_view text, const std::filesystem::path& file);
 
 /// `text` in quotes, safe to print: control characters and bytes that are not UTF-8 escaped, what

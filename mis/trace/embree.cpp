@@ -162,6 +162,20 @@ double scale_of(const Scene& scene, const Vec3<double>& origin)
 
 }  // namespace
 
+std::string embree_error(int code)
+{
+    switch (code) {
+        case RTC_ERROR_NONE: return "no error";
+        case RTC_ERROR_UNKNOWN: return "an error that it does not know";
+        case RTC_ERROR_INVALID_ARGUMENT: return "an argument that it does not take";
+        case RTC_ERROR_INVALID_OPERATION: return "an operation that it does not allow";
+        case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
+        case RTC_ERROR_UNSUPPORTED_CPU: return "this processor is not supported";
+        case RTC_ERROR_CANCELLED: return "it was cancelled";
+        default: return "error " + std::to_string(code);
+    }
+}
+
 /// Embree's device and scene, and which surface a geometry is.
 struct EmbreeTracer::Trees {
     explicit Trees(const Scene& s)
@@ -169,8 +183,8 @@ struct EmbreeTracer::Trees {
     {
         device = rtcNewDevice(nullptr);
         if (device == nullptr)
-            throw std::runtime_error("Embree does not start: error " +
-                                     std::to_string(rtcGetDeviceError(nullptr)));
+            throw std::runtime_error("Embree does not start: " +
+                                     embree_error(rtcGetDeviceError(nullptr)));
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
             widest_packet = 16;
         else if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0)
@@ -184,10 +198,11 @@ struct EmbreeTracer::Trees {
             throw;
         }
         rtcCommitScene(tree);
-        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
+        if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
             release();
             throw std::runtime_error(
-                "Embree could not build a tree over the surfaces of the scene");
+                "Embree could not build a tree over the surfaces of the scene: " +
+                embree_error(error));
         }
     }
     ~Trees() { release(); }

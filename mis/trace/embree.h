@@ -4,6 +4,7 @@
 #include "mis/trace/visibility.h"
 
 #include <memory>
+#include <string>
 
 struct RTCSceneTy;  // what Embree's RTCScene points to
 
@@ -14,6 +15,9 @@ namespace mis {
 /// scene's coordinates: HostTracer's origin (engine/light_points.h) is 0 then.
 void occluded_in(RTCSceneTy* scene, std::span<const ShadowRay> rays,
                  std::span<std::uint8_t> hidden);
+
+/// An error of Embree in words, by its number (RTCError).
+std::string embree_error(int code);
 
 /// The surfaces of a scene in Embree's trees (3.13 or 4); lights are not among them. Owns device
 /// and scene; keeps a reference to the scene. Triangles and quads are intersected by Embree in

@@ -80,6 +80,20 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare VEACH --resolution 0x4", "--resolution: found \"0x4\""},
         BadLine{"compare VEACH --resolution 99999x4", "--resolution: found"},
         BadLine{"compare VEACH --effects some", "--effects: found \"some\""},
+        BadLine{"compare VEACH --effects al", "Did you mean \"all\""},
+        BadLine{"compare VEACH --effects shadow=off", "Did you mean \"shadows=off\""},
+        BadLine{"compare VEACH --effects horizon", "Did you mean \"horizon=off\""},
+        BadLine{"explain VEACH --effects atuo", "Did you mean \"auto\""},
+        BadLine{"render VEACH --sampler sobel --out x.exr", "Did you mean \"sobol\""},
+        BadLine{"compare VEACH --model multy", "Did you mean \"multi\""},
+        BadLine{"cost VEACH --precision flaot", "Did you mean \"float\""},
+        BadLine{"predict VEACH --technique projekted", "Did you mean \"projected\""},
+        BadLine{"compare VEACH --polcy power", "Did you mean \"--policy\""},
+        BadLine{"render VEACH --sp 4 --out x.exr", "Did you mean \"--spp\""},
+        BadLine{"integrate --pdv=cosine", "Did you mean \"--pdf\""},
+        BadLine{"explian VEACH", "Did you mean \"explain\""},
+        BadLine{"explain VEACH --csv -", "explain: found option \"--csv\"; known are"},
+        BadLine{"explain VEACH --sampler sobol", "explain: found option \"--sampler\"; known are"},
         BadLine{"compare VEACH --effects lobes=off", "--effects: found \"lobes=off\""},
         BadLine{"compare VEACH --effects shadows=off", "% of the tiles"},
         BadLine{"render VEACH --effects light_occlusion=off --out x.exr", "before one another"},
@@ -188,7 +202,13 @@ TEST(CommandLine, AnswersWhatIsWrongWithReportsWithOneMessageAndExitCode2)
                              folder.write("torn.json", text_of(report).substr(0, 2000)).string() +
                              "' ",
                       veach = "'" + scene("veach") + "' ";
-    const std::array<std::pair<std::string, std::string>, 8> lines{{
+    std::string wide = "\xFF\xFE";
+    for (const char c : text_of(report)) wide += c, wide += '\0';
+    const std::string utf16 = "'" + folder.write("utf16.json", wide).string() + "' ";
+    const std::array<std::pair<std::string, std::string>, 11> lines{{
+        {one + utf16, "utf16.json: found UTF-16 text (little-endian)"},
+        {utf16 + utf16, "utf16.json: found UTF-16 text (little-endian)"},
+        {one + "no-such.json", "no-such.json: found no such file"},
         {one, "found one report"},
         {one + one + one, "found 3 reports"},
         {one + veach, "a report among scenes"},
@@ -318,6 +338,11 @@ TEST(CommandLine, RendersAPictureOrNothing)
             .exit,
         0);
     EXPECT_TRUE(std::filesystem::exists(file));
+    const std::string bytes = text_of(file);
+    for (const char* name : {"mis:command", "mis:seed", "mis:strategy", "mis:sampler",
+                             "mis:samples_per_point", "mis:partial", "Software"})
+        EXPECT_NE(bytes.find(name), bytes.npos) << name;
+    EXPECT_EQ(bytes.find("mis/seed"), bytes.npos);
     std::size_t files = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / ""))
         ++files;

@@ -3,10 +3,12 @@
 #include "mis/compare/study.h"
 #include "mis/math/limits.h"
 #include "mis/run/tbb.h"
+#include "mis/scene/nearest_name.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <exception>
@@ -42,7 +44,10 @@ std::vector<Strategy> parsed(const std::vector<std::string>& names)
 NumberSource source_of(const std::string& sampler, std::uint64_t seed)
 {
     if (sampler != "independent" && sampler != "sobol")
-        throw ArgumentError("sampler: found \"" + sampler + "\"; known are independent, sobol");
+        throw ArgumentError(
+            "sampler: found \"" + sampler + "\"; known are independent, sobol\n    " +
+            did_you_mean(sampler, std::array<std::string_view, 2>{"independent", "sobol"},
+                         "Give one of them."));
     return {seed, sampler == "sobol" ? one_scrambling : 0};
 }
 
