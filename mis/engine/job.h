@@ -28,7 +28,9 @@ template <class T> struct TileJob {
     LightColumns<T> columns;       ///< for policies that look at all lights, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
-    int bsdf_type = -1;  ///< bsdf_number() of its name
+    int bsdf_type = -1;         ///< bsdf_number() of its name
+    double radiance_scale = 1;  ///< of radiance and contributions in the batch: radiance_scale.h
+    double radiance_unit = 1;   ///< what undoes it
     NumberSource numbers;
     T light_count = 1,
       bsdf_count = 1;  ///< n_i of the multi-sample model; c_i of the one-sample model

@@ -1,7 +1,9 @@
 #include "mis/engine/lit_scene.h"
 
 #include "mis/engine/choices.h"
+#include "mis/engine/radiance_scale.h"
 #include "mis/strategy/names.h"
+#include "mis/trace/surface_points.h"
 
 #include <algorithm>
 
@@ -11,7 +13,8 @@ LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effe
     : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights),
       planner_(scene, hierarchy_, effects,
                surfaces != nullptr ? surfaces->origin() : Vec3<double>(0)),
-      has_grey_lights_(are_grey(scene.lights))
+      has_grey_lights_(are_grey(scene.lights)),
+      radiance_scale_(mis::radiance_scale(scene.lights, frame_origin_of(scene)))
 {
     for (const Material& material : scene.materials) bsdfs_.push_back(make_bsdf(material));
 }
@@ -69,6 +72,8 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
                 compose(kernels, strategy, materials[m].type, effects, numbers);
         }
     }
+    common_.radiance_scale = scene.radiance_scale();
+    common_.radiance_unit = 1 / scene.radiance_scale();
     common_.lights = &lights;
     common_.order = order_.get();
     common_.hierarchy = &scene.lights();

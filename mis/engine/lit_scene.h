@@ -49,6 +49,9 @@ public:
         return {bsdfs_[i].get(), bsdf_number(scene_->materials[i].type)};
     }
 
+    /// What kernels multiply radiance by, and results are divided by (engine/radiance_scale.h).
+    double radiance_scale() const { return radiance_scale_; }
+
 private:
     const Scene* scene_;
     const SurfaceTracer* surfaces_;
@@ -57,6 +60,7 @@ private:
     TilePlanner planner_;
     std::vector<std::shared_ptr<const void>> bsdfs_;
     bool has_grey_lights_;
+    double radiance_scale_;
 };
 
 /// One strategy made ready on a scene: its policy's tables, and pipelines for each material, from

@@ -9,7 +9,9 @@ namespace mis {
 
 namespace {
 
-template <class T> ReplayStep step_after(StageKind stage, bool is_light_half, const Batch<T>& batch)
+template <class T>
+ReplayStep step_after(StageKind stage, bool is_light_half, const TileJob<T>& job,
+                      const Batch<T>& batch)
 {
     const auto number = [](T x) { return static_cast<double>(x); };
     return {.is_light_half = is_light_half,
@@ -25,7 +27,7 @@ template <class T> ReplayStep step_after(StageKind stage, bool is_light_half, co
             .distance = number(batch.distance[0]),
             .light_pdf = number(batch.light_pdf[0]),
             .bsdf_pdf = number(batch.bsdf_pdf[0]),
-            .contribution = vec_cast<double>(batch.contribution.at(0))};
+            .contribution = vec_cast<double>(batch.contribution.at(0)) * job.radiance_unit};
 }
 
 /// Forgets the half before, so that what a step shows is of its own half.
@@ -50,7 +52,8 @@ Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Til
     const std::size_t lights = scene.scene().lights.size();
     LargeVector<T> columns;
     if (pipeline.reads_all_lights || lights <= most_screened_lights)
-        job.columns = fill_light_columns(*job.lights, job.origin, columns, job.order);
+        job.columns =
+            fill_light_columns(*job.lights, job.origin, columns, job.order, job.radiance_scale);
     const auto batch = std::make_unique<Batch<T>>();
     Scratch scratch(std::max<std::size_t>(pipeline.table_bytes, 1));
     batch->samples = 1;
@@ -65,7 +68,7 @@ Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Til
         clear_row(*batch);
         for (const NamedStage<T>& stage : stages) {
             stage.run(job, *batch);
-            found.steps.push_back(step_after(stage.kind, is_light_half, *batch));
+            found.steps.push_back(step_after(stage.kind, is_light_half, job, *batch));
             if (batch->rows == 0) return;
         }
     };
@@ -74,7 +77,7 @@ Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Til
     for (std::uint32_t draw = 0; draw < light_draws; ++draw) run_half(pipeline.light, true, draw);
     for (int draw = 0; draw < pipeline.bsdf_draws; ++draw)
         run_half(pipeline.bsdf, false, static_cast<std::uint32_t>(draw));
-    const Vec3<double> value = batch->value.at(0);
+    const Vec3<double> value = batch->value.at(0) * job.radiance_unit;
     found.value = pipeline.colour ? value : Vec3<double>(value.x);
     return found;
 }

@@ -82,6 +82,18 @@ template <class Table, class T> void price_light(const TileJob<T>& job, Batch<T>
     }
 }
 
+/// radiance · radius of the rows' lights, scaled where floats want that (radiance_scale.h).
+template <class T> void scale_radiance(const TileJob<T>& job, Batch<T>& batch)
+{
+    for (int row = 0; row < batch.rows; ++row) {
+        const LightIndex j = batch.light[static_cast<std::size_t>(row)];
+        if (j < 0) continue;
+        const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
+        batch.radiance.put(
+            row, vec_cast<T>(vec_cast<double>(light.radiance_radius) * job.radiance_scale));
+    }
+}
+
 /// light → to_center, radius, gap2, and radiance · radius in `radiance`. One packed record per row,
 /// in double until the difference is taken. A row without a light gets a black one.
 template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
@@ -109,6 +121,7 @@ template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
                 batch.radiance.put(row, vec_cast<T>(light.radiance_radius));
             }
         });
+    if (job.radiance_scale != 1) scale_radiance(job, batch);
     for (int row = batch.rows; row < (batch.rows + 15) / 16 * 16; ++row) {
         leave_black(row);
         batch.n.put(row, {0, 0, 1}), batch.wo.put(row, {0, 0, 1});
@@ -218,7 +231,8 @@ template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch
         if (nearest.light != chosen) {
             const Vec3<double> seen =
                 radiance((*job.lights)[static_cast<std::size_t>(nearest.light)]);
-            batch.radiance.put(row, vec_cast<T>(seen * solid_angle(job, chosen, x)));
+            batch.radiance.put(
+                row, vec_cast<T>(seen * (solid_angle(job, chosen, x) * job.radiance_scale)));
             batch.distance[i] = static_cast<T>(nearest.distance);
         }
         batch.radiance.put(row, batch.radiance.at(row) * ratio);

@@ -196,7 +196,7 @@ template <class T> void fetch_radiance(const TileJob<T>& job, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
         const auto j = static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)]);
-        batch.radiance.put(row, vec_cast<T>(radiance((*job.lights)[j])));
+        batch.radiance.put(row, vec_cast<T>(radiance((*job.lights)[j]) * job.radiance_scale));
     }
 }
 

@@ -162,7 +162,10 @@ template <class T> struct Workspace<T>::Run {
     void take_in()
     {
         pipeline.sums.find_luminances(batch, luminances);
-        const double share = 1.0 / range.samples_per_observation;
+        if (job.radiance_unit != 1)
+            for (int i = 0; i < batch.samples; ++i)
+                luminances[static_cast<std::size_t>(i)] *= job.radiance_unit;
+        const double share = job.radiance_unit / range.samples_per_observation;
         for (std::size_t first = 0; first < static_cast<std::size_t>(batch.samples);) {
             const std::int32_t slot = batch.sample_point[first];
             std::size_t end = first + 1;
@@ -233,7 +236,8 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     if (!scratch_ || scratch_->size() < scratch_bytes_for(pipeline.table_bytes))
         scratch_ = std::make_unique<Scratch>(scratch_bytes_for(pipeline.table_bytes));
     if (pipeline.reads_all_lights || job.lights->size() <= most_screened_lights)
-        job.columns = fill_light_columns(*job.lights, job.origin, columns_, job.order);
+        job.columns =
+            fill_light_columns(*job.lights, job.origin, columns_, job.order, job.radiance_scale);
     batch_->samples = 0;
     batch_->points = 0;
     batch_->invalid = batch_->shadow_rays = 0;

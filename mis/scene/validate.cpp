@@ -9,7 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace mis {
 namespace {
@@ -167,6 +169,60 @@ MaybeProblem check_probe(const Probe& probe, const Scene& scene)
                          [&] { return check_unit_vector("/normal", probe.normal); },
                          [&] { return check_unit_vector("/outgoing", probe.outgoing); },
                          [&] { return check_material_index("/material", probe.material, scene); });
+}
+
+/// Floats hold d² − r² of a point and a light down to the limit's square. Only of tiny lights can
+/// it be less, outside them.
+MaybeProblem check_near_lights(const Vec3<double>& x, const Lights& lights,
+                               std::span<const std::size_t> tiny, double least)
+{
+    return first_problem_among(tiny, [&](std::size_t j, std::size_t) -> MaybeProblem {
+        const double d = length(x - lights[j].center), r = lights[j].radius;
+        if (d <= r || (d - r) * (d + r) >= least * least) return {};
+        return Problem{"/position",
+                       to_text(x) + ", " + to_text(d) + " from the center of light " + to_text(j) +
+                           " (counted from 0), whose radius is " + to_text(r),
+                       "the tangents from here to a light are at least " + to_text(least) +
+                           " scene units long",
+                       "Use smaller units of length."};
+    });
+}
+
+/// The farthest corner of the box around the camera and the probes is as far as any of them.
+MaybeProblem check_far_lights(const Scene& scene)
+{
+    Vec3<double> low(std::numeric_limits<double>::infinity()), high = -low;
+    const auto reach = [&](const Vec3<double>& x) { low = min(low, x), high = max(high, x); };
+    if (scene.camera) reach(scene.camera->position);
+    for (const Probe& probe : scene.probes) reach(probe.position);
+    return first_problem_among(
+        scene.lights, [&](const Light& light, std::size_t j) -> MaybeProblem {
+            const double d = length(max(light.center - low, high - light.center));
+            if (light.radius >= limits::min_radius_over_distance2 * d * d) return {};
+            return Problem{
+                "/lights/" + to_text(j) + "/radius",
+                to_text(light.radius) + ", " + to_text(d) + " from the camera or a probe",
+                "a radius over the square of the distance is at least " +
+                    to_text(limits::min_radius_over_distance2),
+                "Use larger units of length, or a larger radius of the same power."};
+        });
+}
+
+MaybeProblem check_distances(const Scene& scene)
+{
+    constexpr double tiny_radius = 1e-9;  // of larger ones, what a double tells apart is enough
+    std::vector<std::size_t> tiny;
+    for (std::size_t j = 0; j < scene.lights.size(); ++j)
+        if (scene.lights[j].radius < tiny_radius) tiny.push_back(j);
+    if (tiny.empty()) return {};
+    if (scene.camera)  // whose points are not known here, but are no nearer as a rule
+        if (MaybeProblem problem = check_near_lights(scene.camera->position, scene.lights, tiny,
+                                                     limits::min_camera_tangent))
+            return placed_below("/camera", std::move(problem));
+    return first_problem_among(scene.probes, [&](const Probe& probe, std::size_t i) {
+        return placed_below("/probes/" + to_text(i), check_near_lights(probe.position, scene.lights,
+                                                                       tiny, limits::min_tangent));
+    });
 }
 
 // ── materials ──
@@ -413,7 +469,8 @@ MaybeProblem find_problem(const Scene& scene)
         [&] {
             return scene.camera ? check_outside_lights(*scene.camera, scene.lights)
                                 : MaybeProblem{};
-        });
+        },
+        [&] { return check_distances(scene); }, [&] { return check_far_lights(scene); });
 }
 
 }  // namespace mis

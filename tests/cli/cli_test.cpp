@@ -131,6 +131,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"cost VEACH VEACH", "not expected"},
         BadLine{"cost VEACH --json - --csv -", "standard output takes one"},
         BadLine{"integrate --pdf cosin", "Did you mean \"cosine\""},
+        BadLine{"integrate --pdf hemi", "Did you mean \"hemisphere\""},
         BadLine{"integrate -n 0", "found"},
     };
     for (const BadLine& line : lines) {

@@ -758,7 +758,7 @@ TEST(SceneFormatPage, NamesEveryKeyAndEveryLimit)
     for (const MaterialType& type : material_types)
         expect_named(scene_keys::material(type)), expect_named(std::array{type.name});
     for (const char* limit : {"10 000 000", "50 000 000", "16384", "1 GiB", "64 levels", "1e15",
-                              "1e-30", "1e37", "1e-37", "1e9", "1e-9"})
+                              "1e-30", "1e37", "1e-37", "1e9", "1e-9", "1e-18", "1e-15", "1e-36"})
         EXPECT_NE(page.find(limit), page.npos) << limit;
 }
 
