@@ -162,9 +162,8 @@ private:
         std::string reason(message.substr(start == message.npos ? 0 : start + lead.size()));
         if (echo_start != message.npos)
             reason = message.substr(start + lead.size(), echo_start - start - lead.size());
-        if (byte < text_.size())
-            if (const auto fault = known_json_fault(text_, byte, reason))
-                fail_at(fault->byte, fault->found, fault->allowed, fault->remedy);
+        if (const auto fault = known_json_fault(text_, byte, reason))
+            fail_at(fault->byte, fault->found, fault->allowed, fault->remedy);
         const bool token_is_exact =
             reason.find("string") != reason.npos || reason.find("number") != reason.npos;
         fail_at(byte,

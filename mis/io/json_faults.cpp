@@ -8,12 +8,16 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <system_error>
 
 namespace mis {
 namespace {
 
 constexpr const char* path_remedy =
     "Write paths with /, as in C:/scenes/plate.obj, or each \\ as \\\\.";
+
+constexpr const char* finite_remedy = "Write a finite number, or leave the key out.";
 
 bool is_word(char c)
 {
@@ -56,6 +60,11 @@ std::optional<std::array<std::string, 2>> number_fault(std::string_view word)
     if (point != digits.npos && (point == 0 || !digit_at(point + 1)))
         return std::array<std::string, 2>{"a JSON number has digits on both sides of its point",
                                           "Write 0.5, or 5.0."};
+    double number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error == std::errc::invalid_argument || end != digits.data() + digits.size())
+        return std::array<std::string, 2>{"a JSON number has digits, a point and an exponent alone",
+                                          "Write it as 1000, 0.5 or 1e-3."};
     return {};
 }
 
@@ -70,7 +79,7 @@ std::optional<JsonFault> word_fault(std::string_view text, std::size_t byte)
     for (const std::string_view name : {"nan", "inf", "infinity"})
         if (unsigned_small == name)
             return JsonFault{start, found, fmt::format("{} is no JSON number", word),
-                             "Write a finite number, or leave the key out."};
+                             finite_remedy};
     constexpr std::array<std::array<std::string_view, 2>, 5> words{{{"none", "null"},
                                                                     {"undefined", "null"},
                                                                     {"null", "null"},
@@ -94,9 +103,17 @@ std::optional<JsonFault> character_fault(std::string_view text, std::size_t byte
     if (text[byte] == '\'')
         return JsonFault{byte, "a single quote, '", "strings and keys stand in double quotes",
                          "Write \" in its place."};
-    if (text[byte] == '#')
+    if (text[byte] == '#') {
+        const std::string_view before = byte > 0 ? word_around(text, byte - 1) : "";
+        if (before.ends_with('.')) {  // 1.#INF, -1.#IND, as old C libraries print them
+            const std::string_view after = word_around(text, byte + 1);
+            const std::string all = fmt::format("{}#{}", before, after);
+            return JsonFault{byte - before.size(), in_quotes(all), all + " is no JSON number",
+                             finite_remedy};
+        }
         return JsonFault{byte, in_quotes("#"), "a comment begins with // or /*",
                          "Write // in its place."};
+    }
     std::size_t first = byte;
     while (first > 0 && (static_cast<unsigned char>(text[first]) & 0xC0) == 0x80) --first;
     if (static_cast<unsigned char>(text[first]) < 0x80) return {};
@@ -125,14 +142,15 @@ std::optional<JsonFault> string_fault(std::string_view text, std::size_t byte,
             "in a string a backslash is written \\\\; it begins \\\" \\\\ \\/ \\b \\f \\n \\r \\t "
             "and \\uXXXX",
             path_remedy};
-    const bool is_at_end = says("closing quote") || text[byte] == '\n' || text[byte] == '\r';
-    if (is_at_end) {
+    if (byte >= text.size() || text[byte] == '\n' || text[byte] == '\r') {
         const bool quote_is_escaped = line_before(text, byte).find("\\\"") != text.npos;
-        return JsonFault{byte, "the end of the line within a string",
-                         "a string ends with \" on the line on which it begins",
-                         quote_is_escaped ? "In \\\" the quote is part of the text. "
-                                            "Write paths with /, or each \\ as \\\\."
-                                          : "Close it with \"."};
+        return JsonFault{
+            byte,
+            fmt::format("the end of the {} within a string", byte < text.size() ? "line" : "text"),
+            "a string ends with \" on the line on which it begins",
+            quote_is_escaped ? "In \\\" the quote is part of the text. "
+                               "Write paths with /, or each \\ as \\\\."
+                             : "Close it with \"."};
     }
     if (says("control character") && text[byte] == '\t')
         return JsonFault{byte, "a tab within a string", "in a string a tab is written \\t",
@@ -157,9 +175,15 @@ std::optional<JsonFault> known_json_fault(std::string_view text, std::size_t byt
                                           std::string_view reason)
 {
     if (reason.find("invalid string") != reason.npos) return string_fault(text, byte, reason);
+    if (byte >= text.size()) return {};
     if (auto fault = character_fault(text, byte)) return fault;
-    const bool is_number = reason.find("invalid number") != reason.npos;
-    if (!is_word(text[byte]) && !is_number) return {};
+    const auto says = [&](std::string_view words) { return reason.find(words) != reason.npos; };
+    if (says("object key") && says("number literal"))
+        return JsonFault{byte, in_quotes(word_around(text, byte)),
+                         "a key, in double quotes, belongs here",
+                         "Write 0.5, not 0,5, if this is part of a number."};
+    const bool may_be_just_before = says("invalid number") || says("invalid literal");
+    if (!is_word(text[byte]) && !may_be_just_before) return {};
     return word_fault(text, byte);
 }
 

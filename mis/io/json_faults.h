@@ -15,7 +15,7 @@ struct JsonFault {
 
 /// The fault, if it is one of those that people and programs are known for: NaN, words of Python,
 /// quotes of other kinds, blanks that are not seen, a path's backslashes, numbers of other
-/// languages. byte: where the parser stopped, below text.size(); reason: its own words.
+/// languages. byte: where the parser stopped, text.size() at its end; reason: its own words.
 std::optional<JsonFault> known_json_fault(std::string_view text, std::size_t byte,
                                           std::string_view reason);
 

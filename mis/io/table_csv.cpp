@@ -1,5 +1,6 @@
 #include "mis/io/table_csv.h"
 
+#include "mis/io/encoding.h"
 #include "mis/io/scene_error.h"
 #include "mis/io/scene_keys.h"
 #include "mis/io/text_file.h"
@@ -44,6 +45,16 @@ std::string_view other_separator(std::string_view text)
 }
 
 bool is_quoted(std::string_view field) { return field.find_first_of("\"'") != field.npos; }
+
+/// A field in quotes, and the first character of it that is not ASCII and may not be seen.
+std::string shown_field(std::string_view field)
+{
+    const auto strange = std::find_if(field.begin(), field.end(),
+                                      [](char c) { return static_cast<unsigned char>(c) >= 0x80; });
+    if (strange == field.end()) return in_quotes(field);
+    return in_quotes(field) + ", which has in it " +
+           described_character(field.substr(static_cast<std::size_t>(strange - field.begin())));
+}
 
 /// The number that the whole text is: its fault, if it is none.
 std::errc read_double(std::string_view text, double& number)
@@ -165,7 +176,7 @@ private:
                      "Remove the column: row names, in R by row.names = FALSE, in pandas by "
                      "index=False.");
             if (column == scene_keys::columns.end())
-                fail("", "the unknown column " + in_quotes(name), allowed,
+                fail("", "the unknown column " + shown_field(name), allowed,
                      did_you_mean(name, scene_keys::columns, "Remove it."));
             const auto index = static_cast<std::size_t>(column - scene_keys::columns.begin());
             if (seen[index])
@@ -189,7 +200,7 @@ private:
             fail(column, in_quotes(text), "a number lies within the range of a double",
                  "Use other units.");
         if (error != std::errc{})
-            fail(column, in_quotes(text), "a finite number belongs here",
+            fail(column, shown_field(text), "a finite number belongs here",
                  is_quoted(text)         ? "Write it without quotes."
                  : text.starts_with('+') ? "Write it without the +."
                                          : "Write it as 0.5 or 1e-3.");
@@ -209,8 +220,10 @@ private:
                      : fmt::format("{} {}{}", count, count == 1 ? "field" : "fields",
                                    separator.empty() ? "" : " and " + std::string(separator)),
                  fmt::format("a row has {} fields, as the header has", column_count),
-                 separator.empty() ? "Mend or remove the line."
-                                   : "Separate the fields by commas, and write 0.5, not 0,5.");
+                 count > column_count && separator.empty()
+                     ? "Mend or remove the line; a number is written 0.5, not 0,5."
+                 : separator.empty() ? "Mend or remove the line."
+                                     : "Separate the fields by commas, and write 0.5, not 0,5.");
         }
         std::array<double, column_count> values;
         for (std::size_t i = 0; i < column_count; ++i)

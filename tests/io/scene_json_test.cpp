@@ -346,6 +346,23 @@ const BadScene bad_scenes[] = {
      "plates.json: line 1, column 7: found \"5.\"; a JSON number has digits on both sides"},
     {"Hexadecimal", R"({"a": 0x10})",
      "plates.json: line 1, column 7: found \"0x10\"; JSON has no hexadecimal numbers"},
+    {"NumberOfC", R"({"a": 1.0f})",
+     "plates.json: line 1, column 7: found \"1.0f\"; a JSON number has digits, a point and an "
+     "exponent alone"},
+    {"NumberWithUnderscore", R"({"a": 1_000})",
+     "plates.json: line 1, column 7: found \"1_000\"; a JSON number has digits, a point"},
+    {"NumberOfFortran", R"({"a": 1d3})",
+     "plates.json: line 1, column 7: found \"1d3\"; a JSON number has digits, a point"},
+    {"ExponentWithoutDigits", R"({"a": 1e})",
+     "plates.json: line 1, column 7: found \"1e\"; a JSON number has digits, a point"},
+    {"NanOfOldLibraries", R"({"a": -1.#IND00})",
+     "plates.json: line 1, column 7: found \"-1.#IND00\"; -1.#IND00 is no JSON number"},
+    {"DecimalComma", R"({"a": 0,5})",
+     "plates.json: line 1, column 9: found \"5\"; a key, in double quotes, belongs here\n    Write "
+     "0.5, not 0,5"},
+    {"StringCutOff", R"({"a": "bc)",
+     "plates.json: line 1, column 10: found the end of the text within a string; a string ends "
+     "with \" on the line on which it begins"},
     {"PathWithBackslash", R"({"file": "C:\lamps.csv"})",
      R"(plates.json: line 1, column 13: found "\\l"; in a string a backslash is written \\; it begins )"},
     {"PathOfAUser", R"({"file": "C:\users\x.csv"})",

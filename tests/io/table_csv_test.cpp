@@ -112,7 +112,13 @@ const BadTable bad_tables[] = {
      "the line."},
     {"LongRow", header + "1,2,3,4,5,6,7,8\n",
      "bulbs.csv: line 2: found 8 fields; a row has 7 fields, as the header has\n    Mend or remove "
-     "the line."},
+     "the line; a number is written 0.5, not 0,5."},
+    {"NoBreakSpace", header + "1,2,\u00A03,4,5,6,7\n",
+     "bulbs.csv: line 2, column z: found \"\u00A03\", which has in it U+00A0, a no-break space; a "
+     "finite number belongs here"},
+    {"NoBreakSpaceInTheHeader", "x,y,\u00A0z,radius,r,g,b\n1,2,3,4,5,6,7\n",
+     "bulbs.csv: line 1: found the unknown column \"\u00A0z\", which has in it U+00A0, a no-break "
+     "space; "},
     {"EmptyLineWithin", header + "1,2,3,4,5,6,7\n\n1,2,3,4,5,6,7\n",
      "bulbs.csv: line 3: found an empty line; a row has 7 fields, as the header has\n    Mend or "
      "remove the line."},
