@@ -180,6 +180,7 @@ TEST(GBuffer, ATurnedNormalIsLitByWhatItFaces)
 {
     const LeaningNormals at({-3, 0, 3});
     const LitScene lit(at.scene, nullptr, called_for(at.scene));
+    ASSERT_FALSE(at.found.points.empty());
     for (const ShadingPoint& p : at.found.points) {
         const Vec3<double> expected =
             irradiance(at.scene.lights[0], p.x, -at.n) * (0.5 / std::numbers::pi);
