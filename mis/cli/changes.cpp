@@ -1,11 +1,12 @@
-#include "mis/compare/changes.h"
+#include "mis/changes/changes.h"
 #include "mis/cli/commands.h"
-#include "mis/compare/words.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/changes_json.h"
 #include "mis/io/changes_text.h"
 #include "mis/io/report_peek.h"
 #include "mis/io/report_read.h"
+#include "mis/words/changes_remarks.h"
+#include "mis/words/numbers.h"
 
 #include <fmt/format.h>
 
@@ -48,8 +49,9 @@ int run_changes(const CompareOptions& options)
     check_changes(options);
     ChangesOptions how;
     if (options.fail_on_regression) how.worse_by = *options.fail_on_regression / 100;
-    const Changes changes =
-        changes_between(read_report(options.scenes[0]), read_report(options.scenes[1]), how);
+    const Report before = read_report(options.scenes[0]), after = read_report(options.scenes[1]);
+    Changes changes = changes_between(before, after, how);
+    add_remarks(changes, before, after);
     if (options.fail_on_regression && changes.comparisons == 0 && !changes.has_regression())
         throw UsageError(fmt::format(
             "--fail-on-regression: found no figure that is in both {} and {}\n    Two "

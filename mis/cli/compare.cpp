@@ -5,14 +5,16 @@
 #include "mis/cli/ready.h"
 #include "mis/cli/remark.h"
 #include "mis/cli/report_folder.h"
+#include "mis/cli/run_head.h"
 #include "mis/cli/strategy_list.h"
-#include "mis/compare/maps.h"
-#include "mis/compare/overall.h"
-#include "mis/compare/study.h"
 #include "mis/io/report_csv.h"
 #include "mis/io/report_json.h"
 #include "mis/io/report_peek.h"
 #include "mis/io/report_text.h"
+#include "mis/stats/overall.h"
+#include "mis/study/maps.h"
+#include "mis/study/study.h"
+#include "mis/words/numbers.h"
 
 #include <fmt/format.h>
 
@@ -21,13 +23,29 @@
 #include <cstdio>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace mis::cli {
 
 namespace {
 
-StudyOptions study_options(const CompareOptions& options, Progress& progress)
+/// Ends the run at a sample that is NaN or infinite, and says how to see it again.
+[[noreturn]] void trap(const CompareOptions& options, const Scene& scene, const Strategy& strategy,
+                       const SampleName& sample)
+{
+    std::string command =
+        replay_words(scene.file, strategy, sample) + fmt::format(" --seed {}", options.run.seed);
+    if (options.run.is_sobol()) command += fmt::format(" --sampler sobol --at {}", options.at);
+    if (scene.camera)
+        command += fmt::format(" --resolution {}x{}", scene.camera->resolution[0],
+                               scene.camera->resolution[1]);
+    throw std::runtime_error(
+        fmt::format("{}: {} gave a sample that is no number; this shows it\n    {}", scene.file,
+                    name_of(strategy), command));
+}
+
+StudyOptions study_options(const CompareOptions& options, const Scene& scene, Progress& progress)
 {
     StudyOptions study;
     study.seed = options.run.seed;
@@ -38,7 +56,10 @@ StudyOptions study_options(const CompareOptions& options, Progress& progress)
     study.seconds = options.stop.seconds;
     study.error = options.stop.error;
     study.stop = &interrupt_flag();
-    study.traps_invalid = options.trap;
+    if (options.trap)
+        study.on_invalid = [&](const Strategy& strategy, const SampleName& sample) {
+            trap(options, scene, strategy, sample);
+        };
     study.progress = [&progress](double done, const SceneReport& so_far) {
         if (!progress.is_due()) return;
         std::string text = so_far.name.empty() ? so_far.file : so_far.name;
@@ -100,13 +121,8 @@ int run_compare(const CompareOptions& options)
         select_strategies({options.policies, options.heuristics, options.techniques, options.models,
                            options.strategies});
     if (!options.out.empty()) check_report_folder(options.out, options.force);
-    Report report{.version = MIS_VERSION,
-                  .command = options.run.command_line,
-                  .machine = machine_description()};
-    report.seed = options.run.seed;
+    Report report{run_head(options.run)};
     report.at = options.at;
-    report.is_sobol = options.run.is_sobol();
-    report.instruction_set = kernels<float>().instruction_set;
     if (!options.run.quiet)
         for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
 
@@ -125,8 +141,9 @@ int run_compare(const CompareOptions& options)
         if (options.stop.spp)
             ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
                                      static_cast<double>(selection.strategies.size()));
-        const Study study = run_study(ready.lit, selection.strategies,
-                                      study_options(options, progress), ready.executor);
+        const Study study =
+            run_study(ready.lit, selection.strategies,
+                      study_options(options, ready.scene, progress), ready.executor);
         progress.clear();
         if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
         report.scenes.push_back(study.report);

@@ -4,8 +4,9 @@
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
 #include "mis/cli/remark.h"
+#include "mis/cli/run_head.h"
 #include "mis/cli/strategy_list.h"
-#include "mis/compare/cost_study.h"
+#include "mis/cost/cost_study.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/cost_json.h"
 #include "mis/io/cost_text.h"
@@ -82,14 +83,8 @@ int run_cost(const CostCommandOptions& options)
         for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
-    CostReport report{.version = MIS_VERSION,
-                      .command = options.run.command_line,
-                      .machine = machine_description(),
-                      .instruction_set = std::string(kernels<float>().instruction_set),
-                      .seed = options.run.seed,
-                      .is_sobol = options.run.is_sobol(),
-                      .threads = ready.executor.threads,
-                      .scenes = {}};
+    CostReport report{run_head(options.run), {}};
+    report.threads = ready.executor.threads;
     report.scenes.push_back(
         run_cost_study(ready.lit, choices, study_options(options, progress), ready.executor));
     progress.clear();

@@ -1,7 +1,7 @@
 #include "mis/cli/memory.h"
 
 #include "mis/cli/options.h"
-#include "mis/compare/maps.h"
+#include "mis/study/maps.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "mis/cli/options.h"
-#include "mis/compare/explain.h"
 #include "mis/engine/lit_scene.h"
+#include "mis/study/explain.h"
 #include "mis/trace/embree.h"
 
 #include <fmt/format.h>

@@ -4,11 +4,11 @@
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
 #include "mis/cli/remark.h"
-#include "mis/compare/resolved.h"
 #include "mis/engine/exact.h"
 #include "mis/engine/render.h"
 #include "mis/engine/stopwatch.h"
 #include "mis/io/image_exr.h"
+#include "mis/stats/resolved.h"
 #include "mis/strategy/strategy.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include "mis/engine/replay.h"
 #include "mis/cli/commands.h"
 #include "mis/cli/ready.h"
-#include "mis/compare/study_points.h"
 #include "mis/strategy/names.h"
+#include "mis/study/study_points.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mis/compare/maps.h"
-#include "mis/compare/report.h"
+#include "mis/report/report.h"
+#include "mis/study/maps.h"
 
 #include <optional>
 #include <span>

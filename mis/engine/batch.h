@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mis/engine/sample_name.h"
 #include "mis/math/vec.h"
+#include "mis/sampling/sample_name.h"
 #include "mis/scene/light.h"
 
 #include <array>

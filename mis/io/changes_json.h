@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/compare/changes.h"
+#include "mis/report/changes_report.h"
 
 #include <string>
 

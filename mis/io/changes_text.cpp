@@ -1,8 +1,8 @@
 #include "mis/io/changes_text.h"
 
-#include "mis/compare/words.h"
 #include "mis/io/report_json.h"
 #include "mis/io/text_layout.h"
+#include "mis/words/numbers.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,9 @@
 #include "mis/io/cost_json.h"
 
-#include "mis/compare/words.h"
 #include "mis/io/csv_field.h"
 #include "mis/io/json_parts.h"
+#include "mis/words/cost_remarks.h"
+#include "mis/words/reasons.h"
 
 #include <fmt/format.h>
 
@@ -30,8 +31,8 @@ OrderedJson curve_json(const CostCurveReport& c)
 {
     OrderedJson json = json_identity(c.strategy);
     json["precision"] = name_of(c.precision);
-    json["status"] = c.reason.empty() ? "measured" : "not_run";
-    json["reason"] = json_text_or_null(c.reason);
+    json["status"] = is_none(c.reason) ? "measured" : "not_run";
+    json["reason"] = json_text_or_null(reason_words(c.reason));
     json["slope"] = json_interval(c.slope);
     json["slope_p_value"] = json_figure(c.slope_p_value);
     json["slope_in_time"] = json_interval(c.slope_in_time);
@@ -103,7 +104,7 @@ std::string identity(const CostSceneReport& scene, const CostCurveReport& c)
 std::string tail(const CostCurveReport& c, const std::string& gain = ",,")
 {
     return fmt::format(",{},{},{},{}\r\n", cells(c.slope), cells(c.slope_in_time),
-                       csv_field(c.reason), gain);
+                       csv_field(reason_words(c.reason)), gain);
 }
 
 std::string rows(const CostSceneReport& scene, const CostCurveReport& c)
@@ -124,26 +125,6 @@ std::string rows(const CostSceneReport& scene, const CostCurveReport& c)
 }
 
 }  // namespace
-
-const char* name_of(Trust trust)
-{
-    return trust == Trust::trusted           ? "trusted"
-           : trust == Trust::below_reference ? "below_reference"
-                                             : "rare_samples";
-}
-
-const char* name_of(Reach reach)
-{
-    return reach == Reach::measured       ? "measured"
-           : reach == Reach::extrapolated ? "extrapolated"
-           : reach == Reach::at_most      ? "at_most"
-                                          : "unknown";
-}
-
-const char* name_of(Precision precision)
-{
-    return precision == Precision::in_double ? "double" : "float";
-}
 
 std::string cost_json(const CostReport& report)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/compare/cost_report.h"
+#include "mis/report/cost_report.h"
 
 #include <string>
 
@@ -13,12 +13,5 @@ std::string cost_json(const CostReport& report);
 /// As a table: a header, then one row per measured point and per time to an error, lines ended by
 /// CR LF (RFC 4180). What is not known or not finite is empty.
 std::string cost_csv(const CostReport& report);
-
-/// "trusted", "below_reference", "rare_samples".
-const char* name_of(Trust trust);
-/// "measured", "extrapolated", "unknown".
-const char* name_of(Reach reach);
-/// "float", "double".
-const char* name_of(Precision precision);
 
 }  // namespace mis

@@ -1,7 +1,7 @@
 #include "mis/io/cost_text.h"
 
-#include "mis/compare/words.h"
 #include "mis/io/text_layout.h"
+#include "mis/words/numbers.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/compare/cost_report.h"
+#include "mis/report/cost_report.h"
 
 #include <string>
 

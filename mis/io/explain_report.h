@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/compare/explain.h"
+#include "mis/report/explanation.h"
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,7 @@
 #include "mis/io/json_parts.h"
 
+#include "mis/words/numbers.h"
+
 #include <cmath>
 
 namespace mis {
@@ -24,6 +26,19 @@ OrderedJson json_interval(const Interval& x)
 OrderedJson json_resolution(int width, int height)
 {
     return width > 0 ? OrderedJson{width, height} : OrderedJson(nullptr);
+}
+
+OrderedJson json_head(std::string_view format, const RunHead& run)
+{
+    return {{"format", format},
+            {"version", run.version},
+            {"command", run.command},
+            {"seed", run.seed},
+            {"sampler", sampler_name(run.is_sobol)},
+            {"threads", run.threads},
+            {"machine", run.machine},
+            {"instruction_set", run.instruction_set},
+            {"partial", run.partial}};
 }
 
 OrderedJson json_identity(const Strategy& s)

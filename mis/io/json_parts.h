@@ -1,7 +1,6 @@
 #pragma once
 
-#include "mis/compare/report.h"
-#include "mis/compare/words.h"
+#include "mis/report/report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -28,19 +27,8 @@ OrderedJson json_resolution(int width, int height);
 /// A strategy, as data; "counts" are draws per sample, light and BSDF.
 OrderedJson json_identity(const Strategy& s);
 
-/// What the report of a run begins with. R: Report or CostReport.
-template <class R> OrderedJson json_head(std::string_view format, const R& report)
-{
-    return {{"format", format},
-            {"version", report.version},
-            {"command", report.command},
-            {"seed", report.seed},
-            {"sampler", sampler_name(report.is_sobol)},
-            {"threads", report.threads},
-            {"machine", report.machine},
-            {"instruction_set", report.instruction_set},
-            {"partial", report.partial}};
-}
+/// What the report of a run begins with.
+OrderedJson json_head(std::string_view format, const RunHead& run);
 
 /// Indented, with a line feed at the end. A command line or a file name may hold bytes that are not
 /// UTF-8; JSON cannot.

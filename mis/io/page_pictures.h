@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mis/compare/maps.h"
-#include "mis/compare/report.h"
+#include "mis/report/maps.h"
+#include "mis/report/report.h"
 
 #include <cstddef>
 #include <string>

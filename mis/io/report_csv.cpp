@@ -2,7 +2,7 @@
 
 #include "mis/io/atomic_file.h"
 #include "mis/io/csv_field.h"
-#include "mis/io/report_json.h"
+#include "mis/words/reasons.h"
 
 #include <fmt/format.h>
 
@@ -42,7 +42,7 @@ CsvRow row_of(const SceneReport& scene, const StrategyReport& s)
                                          : light_alone             ? 0
                                                                    : strategy.counts[1])},
         {"status", name_of(s.status)},
-        {"reason", csv_field(s.reason)},
+        {"reason", csv_field(reason_words(s.reason))},
         {"exact", s.exact ? "true" : "false"},
         {"rank", place_cell(s.rank)},
         {"rank_low", place_cell(s.rank_low)},

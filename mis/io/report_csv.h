@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/compare/report.h"
+#include "mis/report/report.h"
 
 #include <string>
 

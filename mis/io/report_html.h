@@ -1,7 +1,7 @@
 #pragma once
 
-#include "mis/compare/report.h"
 #include "mis/io/page_pictures.h"
+#include "mis/report/report.h"
 
 #include <optional>
 #include <span>

@@ -1,9 +1,9 @@
 #include "mis/io/report_json.h"
 
-#include "mis/compare/sentences.h"
-#include "mis/compare/words.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/json_parts.h"
+#include "mis/words/reasons.h"
+#include "mis/words/verdict.h"
 
 namespace mis {
 namespace {
@@ -21,7 +21,7 @@ OrderedJson strategy(const StrategyReport& s)
 {
     OrderedJson json = json_identity(s.strategy);
     json["status"] = name_of(s.status);
-    json["reason"] = json_text_or_null(s.reason);
+    json["reason"] = json_text_or_null(reason_words(s.reason));
     json["exact"] = s.exact;
     json["rank"] = place(s.rank);
     json["rank_low"] = place(s.rank_low);
@@ -115,22 +115,6 @@ OrderedJson overall(const OverallReport& o)
 }
 
 }  // namespace
-
-const char* name_of(Status status)
-{
-    switch (status) {
-        case Status::not_run: return "not_run";
-        case Status::not_resolved: return "not_resolved";
-        case Status::biased: return "biased";
-        case Status::ranked: break;
-    }
-    return "ranked";
-}
-
-const char* name_of(Verdict verdict)
-{
-    return verdict == Verdict::apart ? "apart" : verdict == Verdict::tied ? "tied" : "undecided";
-}
 
 std::string report_json(const Report& report)
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/compare/report.h"
+#include "mis/report/report.h"
 
 #include <string>
 #include <string_view>
@@ -16,11 +16,5 @@ std::string report_json(const Report& report);
 
 /// Writes it to the file `path`, whole or not at all; "-" is standard output. Throws WriteError.
 void write_report_json(const Report& report, const std::string& path);
-
-/// A state as it stands in files: "ranked", "not_resolved", "biased", "not_run".
-const char* name_of(Status status);
-
-/// "apart", "tied", "undecided".
-const char* name_of(Verdict verdict);
 
 }  // namespace mis

@@ -1,9 +1,9 @@
 #include "mis/io/report_read.h"
 
-#include "mis/compare/words.h"
 #include "mis/io/json_node.h"
 #include "mis/io/report_json.h"
 #include "mis/io/text_file.h"
+#include "mis/words/numbers.h"
 
 #include <nlohmann/json.hpp>
 
@@ -146,7 +146,8 @@ StrategyReport strategy_report(const JsonNode& node)
     StrategyReport s;
     s.strategy = strategy(node);
     s.status = status(node["status"]);
-    s.reason = text(node["reason"]);
+    if (const std::string why = text(node["reason"]); !why.empty())
+        s.reason = reason::AsWritten{why};
     s.exact = truth(node["exact"]);
     read_ranks(node, s);
     s.samples = count(node["samples"]);
@@ -257,10 +258,10 @@ Report parse_report(std::string_view content, const std::filesystem::path& file)
     const JsonNode root(document, name, guide);
     if (root["format"].string() != report_format)
         root["format"].fail_value("this version reads " + in_quotes(report_format), root.guide());
-    Report report{.version = root["version"].string(),
-                  .command = root["command"].string(),
-                  .machine = root["machine"].string(),
-                  .instruction_set = root["instruction_set"].string()};
+    Report report{{.version = root["version"].string(),
+                   .command = root["command"].string(),
+                   .machine = root["machine"].string(),
+                   .instruction_set = root["instruction_set"].string()}};
     report.seed = count(root["seed"]);
     if (const auto sampler = root.find("sampler"))
         report.is_sobol = one_of(*sampler, std::array{false, true}, sampler_name);

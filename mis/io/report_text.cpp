@@ -1,7 +1,7 @@
 #include "mis/io/report_text.h"
 
-#include "mis/compare/sentences.h"
 #include "mis/io/text_layout.h"
+#include "mis/words/verdict.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "mis/io/text_layout.h"
 
-#include "mis/compare/words.h"
+#include "mis/words/numbers.h"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 // radiance is no number, seen by the camera and by the left slope of a roof, not by the right one.
 //     no_number FILE
 // Prints, as JSON, which pixels must show as marked: of the reference, and of each strategy.
-#include "mis/compare/maps.h"
-#include "mis/compare/study.h"
 #include "mis/io/report_html.h"
 #include "mis/run/serial.h"
+#include "mis/study/maps.h"
+#include "mis/study/study.h"
 #include "mis/trace/analytic.h"
 
 #include "tests/support/scenes.h"
@@ -60,7 +60,7 @@ int main(int, char** arguments)
     const AnyExecutor executor = any_executor(SerialExecutor{});
     const Study study = run_study(lit, strategies, {.spp = 64}, executor);
     const Maps maps = maps_of(lit, study, 16, executor);
-    Report report{.version = "0", .command = "none", .machine = "any"};
+    Report report{{.version = "0", .command = "none", .machine = "any"}};
     report.scenes.push_back(study.report);
     const std::vector<std::optional<PagePictures>> pictures{
         page_pictures(maps, most_page_values, "0-")};

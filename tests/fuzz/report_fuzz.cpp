@@ -1,11 +1,11 @@
 // Any text at all, as a report: it is read, or refused with a message. What is read is written
 // again and compared with itself and with a copy whose strategies have changed places.
-#include "mis/compare/changes.h"
 #include "mis/io/changes_json.h"
 #include "mis/io/changes_text.h"
 #include "mis/io/report_json.h"
 #include "mis/io/report_read.h"
 #include "mis/io/scene_error.h"
+#include "tests/support/changes.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,7 +28,7 @@ mis::Report turned(mis::Report report)
 
 void compare(const mis::Report& before, const mis::Report& after)
 {
-    const mis::Changes changes = mis::changes_between(before, after, {.worse_by = 0.05});
+    const mis::Changes changes = mis::remarked_changes(before, after, {.worse_by = 0.05});
     if (changes.changed > changes.comparisons) std::abort();
     mis::changes_text(changes);
     mis::changes_json(changes, {});

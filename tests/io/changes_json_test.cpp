@@ -2,6 +2,7 @@
 
 #include "mis/io/csv_field.h"
 #include "tests/io/sample_report.h"
+#include "tests/support/changes.h"
 #include "tests/support/places.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ Report worse_report()
 Json emitted(const ChangesOptions& options = {.worse_by = 0.05})
 {
     return Json::parse(changes_json(
-        changes_between(sample_report(), worse_report(), options),
+        remarked_changes(sample_report(), worse_report(), options),
         {.version = "0.1.0", .command = "mis compare a b", .file_before = "a", .file_after = "b"}));
 }
 
@@ -90,7 +91,7 @@ TEST(ChangesJson, IsExplainedKeyByKey)
 
 TEST(ChangesCsv, HasOneRowForEachSceneAndStrategy)
 {
-    const std::string text = changes_csv(changes_between(sample_report(), worse_report()));
+    const std::string text = changes_csv(remarked_changes(sample_report(), worse_report()));
     std::istringstream lines(text);
     std::string header, first;
     std::getline(lines, header), std::getline(lines, first);

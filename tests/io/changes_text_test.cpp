@@ -2,6 +2,7 @@
 
 #include "mis/io/text_layout.h"
 #include "tests/io/sample_report.h"
+#include "tests/support/changes.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ Report changed_report()
 
 std::string text(const ChangesOptions& options = {})
 {
-    return changes_text(changes_between(sample_report(), changed_report(), options));
+    return changes_text(remarked_changes(sample_report(), changed_report(), options));
 }
 
 void expect_line(const std::string& start, const std::string& rest)
@@ -66,7 +67,7 @@ TEST(ChangesText, ListsRegressionsWhereTheyWereAskedFor)
     expect_line("plates: solid-angle/power: variance 1.50 ± ", "times what it was.");
     expect_line("plates: radiant-solid-angle/balance: now biased.", "");
     const std::string none =
-        changes_text(changes_between(sample_report(), sample_report(), {.worse_by = 0.05}));
+        changes_text(remarked_changes(sample_report(), sample_report(), {.worse_by = 0.05}));
     EXPECT_NE(none.find("No regression: nothing is surely worse by more than 5 %."),
               std::string::npos)
         << none;

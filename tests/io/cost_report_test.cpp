@@ -2,8 +2,8 @@
 #include "mis/io/cost_text.h"
 #include "mis/io/text_layout.h"
 
-#include "mis/compare/cost_crossings.h"
-#include "tests/compare/synthetic_cost.h"
+#include "mis/cost/crossings.h"
+#include "tests/cost/synthetic_cost.h"
 #include "tests/io/schema_check.h"
 #include "tests/support/places.h"
 
@@ -31,9 +31,9 @@ CostReport sample_costs()
                   .seed = 2}),
         measured({.name = "radiant-solid-angle/balance/union@4+1", .bias = 0.05}),
         measured({.name = "brdf", .variance = 100, .carriers = 3}),
-        {.strategy = parse_strategy("all/power"), .reason = "past the budget", .levels = {}}};
+        {.strategy = parse_strategy("all/power"), .reason = reason::NoTimeLeft{}, .levels = {}}};
     curves[0].precision = Precision::in_double;
-    CostSceneReport scene{.file = "a \"b\",c.json", .name = "bulbs \xff"};
+    CostSceneReport scene{{.file = "a \"b\",c.json", .name = "bulbs \xff"}};
     scene.lights = 3, scene.width = 32, scene.height = 24, scene.shading_points = 768;
     scene.replicates = 8;
     scene.reference = {.sources = {"all/power", "power/power"}, .samples = 4000, .error = 1e-3};
@@ -43,7 +43,7 @@ CostReport sample_costs()
         models.push_back(model_of(m, ground));
     }
     scene.crossings = find_crossings(std::span(models).first(2));
-    return {.version = "0.1.0", .command = "mis cost", .threads = 2, .scenes = {scene}};
+    return {{.version = "0.1.0", .command = "mis cost", .threads = 2}, {scene}};
 }
 
 Json described() { return Json::parse(std::ifstream(source_dir() / "docs/cost.schema.json")); }

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mis/compare/overall.h"
-#include "mis/compare/rank.h"
-#include "tests/compare/simulated.h"
+#include "mis/stats/overall.h"
+#include "mis/stats/rank.h"
+#include "tests/support/simulated.h"
 
 #include <string>
 
@@ -31,7 +31,7 @@ inline SceneReport sample_scene(const std::string& name, std::uint64_t seed = 1)
     StrategyMeasurements dear;
     dear.strategy = {.policy = "all", .heuristic = "balance", .counts = {4, 1}};
     dear.was_run = false;
-    dear.not_run_reason = "its budget is past, said \"enough\"";
+    dear.not_run_reason = reason::AsWritten{"its budget is past, said \"enough\""};
     dear.estimated_seconds = 600;
 
     Ranking ranking = rank({.points = 64,

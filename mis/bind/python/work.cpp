@@ -1,8 +1,8 @@
 #include "mis/bind/python/work.h"
 
-#include "mis/compare/study.h"
 #include "mis/math/limits.h"
 #include "mis/run/tbb.h"
+#include "mis/study/study.h"
 
 #include <fmt/format.h>
 
@@ -227,7 +227,7 @@ Report compare(const ReadyScene& ready, const std::vector<std::string>& strategi
     if (stopped) std::rethrow_exception(stopped);
     if (found.points->figure_points == 0)
         throw ArgumentError(ready.scene.file + ": found nothing to light: no surface is in view");
-    Report report{.version = MIS_VERSION};
+    Report report{{.version = MIS_VERSION}};
     report.seed = run.seed, report.at = options.at, report.threads = executor.threads;
     report.is_sobol = study.samples_per_scrambling > 0;
     report.instruction_set = kernels<float>().instruction_set;

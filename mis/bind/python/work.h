@@ -1,8 +1,8 @@
 #pragma once
 
-#include "mis/compare/report.h"
 #include "mis/engine/render.h"
 #include "mis/predict/predict.h"
+#include "mis/report/report.h"
 #include "mis/trace/embree.h"
 
 #include <array>

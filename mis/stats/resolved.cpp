@@ -1,0 +1,135 @@
+#include "mis/stats/resolved.h"
+
+#include "mis/stats/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace mis {
+namespace {
+
+/// float samples of one value differ by some ulp, so that their variance is some 1e-13 of the
+/// squared mean.
+constexpr double rounding_of_variances = 1e-6;
+
+/// One figure, as the other strategies' samples have it and as a strategy's own have it.
+struct Check {
+    bool is_relative;
+    double from_others, from_others_se, own, own_se;
+    double zero;  ///< below this it is rounding
+
+    double at_least() const { return from_others - audit_errors * from_others_se; }
+    bool fails() const
+    {
+        return at_least() > std::max(audit_factor * (own + audit_errors * own_se), zero);
+    }
+    Reason reason() const { return reason::AuditFails{is_relative, at_least(), own}; }
+};
+
+/// What the audit has against its variance, or its relative variance; nothing where it has nothing,
+/// or where there was none.
+std::optional<Check> variance_fault(const StrategyMeasurements& s)
+{
+    const Audit& a = s.audit;
+    const Check check{false,
+                      a.variance_from_others,
+                      a.variance_from_others_se,
+                      a.own_variance,
+                      a.own_variance_se,
+                      rounding_of_variances * s.pooled.mean * s.pooled.mean};
+    return a.available && check.fails() ? std::optional(check) : std::nullopt;
+}
+std::optional<Check> relative_fault(const StrategyMeasurements& s)
+{
+    const Audit& a = s.audit;
+    const Check check{true,
+                      a.relative_variance_from_others,
+                      a.relative_variance_from_others_se,
+                      a.own_relative_variance,
+                      a.own_relative_variance_se,
+                      rounding_of_variances};
+    return a.relative_available && check.fails() ? std::optional(check) : std::nullopt;
+}
+std::optional<Check> audit_fault(const StrategyMeasurements& s)
+{
+    const std::optional<Check> fault = variance_fault(s);
+    return fault ? fault : relative_fault(s);
+}
+
+reason::Observations observations(const StrategyMeasurements& s)
+{
+    return {static_cast<double>(s.pooled.samples) / s.samples_per_observation,
+            s.samples_per_observation > 1};
+}
+
+Reason carried_by_few(bool is_relative, const Participation& participation,
+                      const StrategyMeasurements& s)
+{
+    return reason::CarriedByFew{is_relative, participation.number(), least_participation_to_rank,
+                                observations(s)};
+}
+
+/// Relative standard error of one of the replicates' figures.
+double relative_error(const StrategyMeasurements& s, double ReplicateValues::*figure)
+{
+    std::vector<double> values;
+    for (const ReplicateValues& replicate : s.replicates) values.push_back(replicate.*figure);
+    return log_mean(values).se;
+}
+
+}  // namespace
+
+double resolving_factor(const StrategyMeasurements& s)
+{
+    double factor = audit_fault(s) ? 2 : 1;
+    if (s.replicates.size() < 2 || s.pooled.variance <= 0) return 4;
+    for (const Participation* p : {&s.pooled.participation, &s.pooled.relative_participation})
+        if (p->sum_d4 > 0) factor = std::max(factor, least_participation_to_rank / p->number());
+    const double spread = relative_error(s, &ReplicateValues::variance) / largest_relative_error;
+    return std::isfinite(spread) ? std::max(factor, spread * spread) : std::max(factor, 4.0);
+}
+
+AuditedGrowth audited_growth(const StrategyMeasurements& s)
+{
+    const auto growth = [](const std::optional<Check>& fault) {
+        return fault && fault->own > 0 ? fault->at_least() / fault->own : 1;
+    };
+    return {growth(variance_fault(s)), growth(relative_fault(s))};
+}
+
+Reason why_blind(const StrategyMeasurements& s)
+{
+    if (const auto fault = audit_fault(s)) return fault->reason();
+    if (s.pooled.variance > 0 || s.all_samples_equal_reference) return {};
+    return reason::NeverVaries{observations(s)};
+}
+
+namespace {
+
+Reason why_not(const StrategyMeasurements& s, bool is_relative_asked)
+{
+    const PooledFigures& pooled = s.pooled;
+    if (const auto fault = audit_fault(s)) return fault->reason();
+    if (s.all_samples_equal_reference) return {};
+    if (s.replicates.size() < 2) return reason::FewReplicates{};
+    if (!std::isfinite(pooled.variance) || !std::isfinite(pooled.mean)) return reason::NotFinite{};
+    if (pooled.variance <= 0) return why_blind(s);
+    if (pooled.participation.number() < least_participation_to_rank)
+        return carried_by_few(false, pooled.participation, s);
+    if (is_relative_asked && pooled.relative_participation.sum_d4 > 0 &&
+        pooled.relative_participation.number() < least_participation_to_rank)
+        return carried_by_few(true, pooled.relative_participation, s);
+    const double error = relative_error(s, &ReplicateValues::variance);
+    if (!(error <= largest_relative_error))
+        return reason::ReplicatesDiffer{error, largest_relative_error};
+    return {};
+}
+
+}  // namespace
+
+Reason why_not_resolved(const StrategyMeasurements& s) { return why_not(s, true); }
+
+Reason why_variance_not_resolved(const StrategyMeasurements& s) { return why_not(s, false); }
+
+}  // namespace mis

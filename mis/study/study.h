@@ -1,0 +1,48 @@
+#pragma once
+
+#include "mis/report/report.h"
+#include "mis/study/stopping.h"
+#include "mis/study/strategy_run.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace mis {
+
+struct StudyOptions {
+    std::uint64_t seed = 1;
+    /// 0: independent samples. n: Sobol' sequences of n samples, each scrambled apart; variances
+    /// are over scramblings alone (docs/theory.md (70)), and there is no audit. n divides spp.
+    std::uint64_t samples_per_scrambling = 0;
+    double at = 16;                    ///< samples per point that the efficiency is for
+    std::optional<std::uint64_t> spp;  ///< so many samples per point, for every strategy
+    std::optional<double> seconds;     ///< so much wall time
+    std::optional<double> error;       ///< until every ranked variance is known to ± this share
+    double default_seconds = 30;       ///< without any of these: until settled, or this
+    /// Told of the first NaN or infinite sample of a strategy, after each of its rounds; it may
+    /// throw.
+    std::function<void(const Strategy& strategy, const SampleName& sample)> on_invalid;
+    const std::atomic<bool>* stop = nullptr;  ///< set from outside: end with the results so far
+    std::function<void(double done, const SceneReport& so_far)> progress;
+
+    StudyGoal goal() const { return {spp, seconds, error, default_seconds}; }
+};
+
+/// A study of one scene: its report, and what every strategy's samples came to at every point.
+struct Study {
+    SceneReport report;
+    std::unique_ptr<StudyPoints> points;
+    std::vector<std::unique_ptr<StrategyRun>> runs;  ///< [strategy]; null where it was not run
+    std::vector<double> reference_weights;           ///< [strategy]: of its means in the reference
+};
+
+/// Samples the strategies in small alternating rounds and ranks them, until it is time to stop.
+Study run_study(const LitScene& scene, const std::vector<Strategy>& strategies,
+                const StudyOptions& options, const AnyExecutor& executor);
+
+/// The memory that a study of so many points and strategies takes, bytes.
+std::size_t study_bytes(std::size_t points, std::size_t strategies);
+
+}  // namespace mis

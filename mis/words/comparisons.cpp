@@ -1,0 +1,112 @@
+#include "mis/words/comparisons.h"
+
+#include "mis/words/numbers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+namespace mis {
+namespace {
+
+constexpr std::size_t most_pairs = 5;  // named, undecided or tied; the rest is a number
+
+void say_exact(Sentences& sentences, const SceneView& view)
+{
+    std::vector<std::string> names;
+    for (int i = 0; i < view.count(); ++i)
+        if (view.of(i).exact && view.of(i).status == Status::ranked) names.push_back(view.name(i));
+    if (!names.empty())
+        sentences.say(listed(names) + (names.size() == 1 ? " is" : " are") +
+                      " exact here: every sample gives the result");
+}
+
+bool are_tied(const SceneView& view, int i, int j)
+{
+    const PairReport* p = view.pair(i, j);
+    return p && p->verdict == Verdict::tied;
+}
+
+/// Ranked strategies of which each is tied with each, in variance: greedily, from the first on.
+std::vector<std::vector<int>> tied_groups(const SceneView& view)
+{
+    std::vector<std::vector<int>> groups;
+    for (const int i : view.in_order()) {
+        if (view.of(i).exact) continue;
+        const auto group = std::ranges::find_if(groups, [&](const std::vector<int>& members) {
+            return std::ranges::all_of(members, [&](int j) { return are_tied(view, i, j); });
+        });
+        if (group == groups.end()) groups.push_back({i});
+        else group->push_back(i);
+    }
+    return groups;
+}
+
+/// Groups of three and more. Returns the pairs that are told.
+std::set<std::pair<int, int>> say_tied_groups(Sentences& sentences, const SceneView& view,
+                                              double margin)
+{
+    std::set<std::pair<int, int>> told;
+    for (const std::vector<int>& group : tied_groups(view)) {
+        if (group.size() < 3) continue;
+        std::vector<std::string> names;
+        for (const int i : group) {
+            names.push_back(view.name(i));
+            for (const int j : group) told.emplace(i, j);
+        }
+        sentences.say(listed(names) + " are tied in variance, each with each, within " +
+                      percent(margin));
+    }
+    return told;
+}
+
+void say_ties(Sentences& sentences, const SceneView& view, double margin)
+{
+    const std::set<std::pair<int, int>> told = say_tied_groups(sentences, view, margin);
+    std::size_t pairs = 0;
+    for (const PairReport& p : view.scene().pairs) {
+        if (p.verdict != Verdict::tied || view.of(p.a).exact || told.contains({p.a, p.b})) continue;
+        if (++pairs > most_pairs) continue;
+        sentences.say(view.name(p.a) + " and " + view.name(p.b) + " are tied in variance within " +
+                      percent(margin) + " (ratio " + with_error(p.ratio) + ")");
+    }
+    if (pairs > most_pairs)
+        sentences.say(std::to_string(pairs - most_pairs) + " more pairs are tied");
+}
+
+/// "290 more replicates (19 times as many samples)".
+std::string replicates_in_words(const SceneReport& scene, double more)
+{
+    const std::string text = number(more, 2) + " more replicates";
+    return scene.replicates < 1
+               ? text
+               : text + " (" + number(1 + more / scene.replicates, 2) + " times as many samples)";
+}
+
+void say_undecided(Sentences& sentences, const SceneView& view)
+{
+    std::size_t undecided = 0;
+    for (const PairReport& p : view.scene().pairs) {
+        if (p.verdict != Verdict::undecided || ++undecided > most_pairs) continue;
+        sentences.say(view.name(p.a) + " and " + view.name(p.b) +
+                      " are undecided in variance (ratio " + with_error(p.ratio) + ")" +
+                      (std::isfinite(p.more_replicates)
+                           ? ": about " + replicates_in_words(view.scene(), p.more_replicates) +
+                                 " would decide"
+                           : ""));
+    }
+    if (undecided > most_pairs)
+        sentences.say(std::to_string(undecided - most_pairs) + " more pairs are undecided");
+}
+
+}  // namespace
+
+void say_comparisons(Sentences& sentences, const SceneView& view, double margin)
+{
+    say_exact(sentences, view);
+    say_ties(sentences, view, margin);
+    say_undecided(sentences, view);
+}
+
+}  // namespace mis

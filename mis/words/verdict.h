@@ -1,0 +1,19 @@
+#pragma once
+
+#include "mis/report/report.h"
+
+#include <string>
+#include <vector>
+
+namespace mis {
+
+/// What a scene's report says, in words. First the verdict: which strategy to use here, how sure
+/// that is, and what it saves against what is commonly used (uniform/power, power/power, brdf; else
+/// the next best). Then ties, what is undecided, and why each strategy that is not ranked is not.
+/// threads, margin: of the report.
+std::vector<std::string> sentences_of(const SceneReport& scene, int threads, double margin);
+
+/// The same over all scenes; empty unless there are several.
+std::vector<std::string> overall_sentences_of(const Report& report);
+
+}  // namespace mis

@@ -1,0 +1,52 @@
+#include "mis/study/schedule.h"
+
+#include "mis/stats/rank.h"
+
+#include "tests/support/simulated.h"
+
+#include <gtest/gtest.h>
+
+namespace mis {
+namespace {
+
+TEST(ErrorSpending, SpendsLittleEarlyAndNeverMoreThanAll)
+{
+    ErrorSpending spending;
+    double spent = 0;
+    for (const double elapsed : {0.1, 0.3, 0.3, 0.7, 1.2}) {
+        const double share = spending.spend_at(elapsed);
+        EXPECT_GE(share, 0);
+        spent += share;
+        EXPECT_LE(spent, 0.5 * std::min(1.0, elapsed * elapsed) + 1e-15);
+    }
+    EXPECT_DOUBLE_EQ(spent + spending.spend_rest(), 1);
+    EXPECT_EQ(spending.spend_rest(), 0);
+}
+
+TEST(Parts, AreMoreWhereRoundsAreFewAndDivideTheReplicates)
+{
+    EXPECT_EQ(parts_for(1, 60), 1);
+    EXPECT_EQ(parts_for(1, 4), 2);
+    EXPECT_EQ(parts_for(1, 1), 4);
+    for (const double seconds : {0.1, 1.0, 2.0, 2.3, 3.0, 6.0, 100.0})
+        EXPECT_EQ(SamplePlan{}.replicates % parts_for(1, seconds), 0) << seconds;
+}
+
+/// A verdict stands at a look that may spend almost nothing; but not for the one that is no longer
+/// the better.
+TEST(Rank, LetsEarlierVerdictsStand)
+{
+    const StrategyMeasurements a = simulate("a", uniform_samples(0.1)),
+                               b = simulate("b", uniform_samples(0.105));
+    const SceneMeasurements scene{64, {a, b}};
+    const std::vector<PairReport> earlier = rank(scene, {}).pairs;
+    ASSERT_EQ(earlier[0].verdict, Verdict::apart);
+    EXPECT_EQ(rank(scene, {.share = 1e-6}).pairs[0].verdict, Verdict::undecided);
+    EXPECT_EQ(rank(scene, {.share = 1e-6, .earlier = earlier}).pairs[0].verdict, Verdict::apart);
+    std::vector<PairReport> turned = earlier;
+    std::swap(turned[0].a, turned[0].b);
+    EXPECT_EQ(rank(scene, {.share = 1e-6, .earlier = turned}).pairs[0].verdict, Verdict::undecided);
+}
+
+}  // namespace
+}  // namespace mis

@@ -1,0 +1,315 @@
+#include "mis/study/study.h"
+
+#include "mis/run/serial.h"
+#include "mis/run/tbb.h"
+#include "mis/study/audit.h"
+#include "mis/trace/analytic.h"
+#include "mis/words/reasons.h"
+
+#include "tests/support/scenes.h"
+#include "tests/support/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace mis {
+namespace {
+
+/// A small picture of a floor with a blocker under three lights, and a probe.
+Scene small_picture()
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {40, 24}};
+    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
+    scene.surfaces.push_back({SphereSurface{{0.5, 0.6, 0.5}, 0.3}, 0});
+    return scene;
+}
+
+std::vector<Strategy> named(const std::vector<const char*>& names)
+{
+    std::vector<Strategy> strategies;
+    for (const char* name : names) strategies.push_back(parse_strategy(name));
+    return strategies;
+}
+
+Study study_of(const Scene& scene, const std::vector<Strategy>& strategies,
+               const StudyOptions& options,
+               const AnyExecutor& executor = any_executor(SerialExecutor{}))
+{
+    const AnalyticTracer tracer(scene);
+    const LitScene lit(scene, &tracer, called_for(scene));
+    return run_study(lit, strategies, options, executor);
+}
+
+void expect_the_same_on_any_number_of_threads(const Scene& scene,
+                                              const std::vector<Strategy>& strategies,
+                                              const StudyOptions& options)
+{
+    const Study one = study_of(scene, strategies, options);
+    ASSERT_GT(one.report.shading_points, 500U);
+    for (const int threads : {2, 3}) {
+        const Study other =
+            study_of(scene, strategies, options, any_executor(TbbExecutor(threads)));
+        for (std::size_t s = 0; s < strategies.size(); ++s) {
+            const StrategyReport &a = one.report.strategies[s], &b = other.report.strategies[s];
+            EXPECT_EQ(a.samples, b.samples);
+            EXPECT_EQ(a.mean, b.mean) << name_of(strategies[s]);
+            EXPECT_EQ(a.variance.value, b.variance.value);
+            EXPECT_EQ(a.relative_variance.value, b.relative_variance.value);
+            EXPECT_EQ(a.rays_per_sample, b.rays_per_sample);
+            EXPECT_EQ(a.probes[0].mean, b.probes[0].mean);
+            EXPECT_EQ(a.status, b.status);
+        }
+    }
+}
+
+TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
+{
+    const Scene scene = small_picture();
+    const auto strategies =
+        named({"uniform/power", "solid-angle/balance", "all/light", "brdf", "power/light/union"});
+    for (const StudyOptions& options :
+         {StudyOptions{.spp = 37}, StudyOptions{.samples_per_scrambling = 8, .spp = 64}})
+        expect_the_same_on_any_number_of_threads(scene, strategies, options);
+}
+
+/// At one probe: the variance of a sample at n is what scramblings say, and far below that of
+/// independent samples; the means agree.
+TEST(Study, OfSobolSequencesHasTheirVariance)
+{
+    const Scene scene = probe_under(three_lights_apart(), grey_floor());
+    const auto strategies = named({"uniform/light", "power/power", "radiant-solid-angle/balance"});
+    const Study independent = study_of(scene, strategies, {.spp = 65536});
+    const Study sobol = study_of(scene, strategies, {.samples_per_scrambling = 64, .spp = 65536});
+    for (std::size_t s = 0; s < strategies.size(); ++s) {
+        const StrategyReport &a = independent.report.strategies[s], &b = sobol.report.strategies[s];
+        EXPECT_EQ(b.samples, 65536U);
+        EXPECT_EQ(b.status, Status::ranked) << reason_words(b.reason);
+        // One scrambling is more than enough for 1 %; less than one was not measured.
+        EXPECT_GE(b.seconds_to_1_percent.value, 0.99 * 64 * b.seconds_per_sample.value);
+        EXPECT_LT(2 * b.variance.high, a.variance.low) << name_of(strategies[s]);
+        EXPECT_NEAR(b.probes[0].variance.value, b.variance.value, 0.1 * b.variance.value);
+        // The root of variance/samples is the error of the mean, which is that over replicates.
+        EXPECT_NEAR(b.probes[0].mean_se, std::sqrt(b.probes[0].variance.value / 65536),
+                    1e-6 * b.probes[0].mean_se);
+        EXPECT_LT(std::fabs(a.mean - b.mean),
+                  z_bound(1e-4, 3) * std::hypot(a.probes[0].mean_se, b.probes[0].mean_se));
+    }
+}
+
+/// At the first look half of the strategies have too few samples to be ranked: the two that are
+/// apart by then do not end the study.
+TEST(Study, WaitsForStrategiesThatCanStillBeResolved)
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    std::vector<Strategy> strategies;
+    for (const char* policy : {"uniform", "power", "solid-angle", "radiant-solid-angle"})
+        for (const char* heuristic : {"light", "balance", "power"})
+            strategies.push_back(parse_strategy(std::string(policy) + "/" + heuristic));
+    const Study study = study_of(scene, strategies, {.default_seconds = 20});
+    for (const StrategyReport& s : study.report.strategies)
+        EXPECT_EQ(s.status, Status::ranked)
+            << name_of(s.strategy) << ": " << reason_words(s.reason);
+}
+
+/// Of two lights `power` chooses one that nobody sees, all but always.
+Scene picture_with_a_light_in_vain()
+{
+    Scene scene = small_picture();
+    scene.lights.push_back(make_light_of_power({0, 4e5, 1e5}, 1e3, Vec3<double>(1e11)));
+    scene.lights[0] = make_light_of_power({0, 1.5, 0}, 0.1, Vec3<double>(100));
+    return scene;
+}
+
+/// A strategy that never drew what matters shows hardly a variance: it must not make the reference,
+/// whether the audit finds it out or, where there is none, the means.
+TEST(Study, IsNotLedAstrayByAStrategyThatIsNotResolved)
+{
+    const Scene scene = picture_with_a_light_in_vain();
+    const std::vector<const char*> honest{"uniform/light", "all/light", "irradiance/light",
+                                          "radiant-solid-angle/light", "product/light"};
+    std::vector<const char*> with_another = honest;
+    with_another.push_back("power/light");
+    for (const std::uint32_t sequence : {0U, 4U}) {
+        const StudyOptions options{.seed = 4, .samples_per_scrambling = sequence, .spp = 1024};
+        const Study alone = study_of(scene, named(honest), options),
+                    beside = study_of(scene, named(with_another), options);
+        ASSERT_EQ(alone.report.strategies[0].status, Status::ranked)
+            << reason_words(alone.report.strategies[0].reason);
+        ASSERT_EQ(beside.report.strategies[0].status, Status::ranked)
+            << reason_words(beside.report.strategies[0].reason);
+        EXPECT_NE(beside.report.strategies.back().status, Status::ranked);
+        EXPECT_EQ(beside.report.lacks_audit, sequence > 0);
+        const double expected = alone.report.strategies[0].relative_variance.value;
+        EXPECT_NEAR(beside.report.strategies[0].relative_variance.value, expected, 0.1 * expected);
+        EXPECT_NEAR(beside.report.epsilon, alone.report.epsilon, 0.1 * alone.report.epsilon);
+    }
+}
+
+TEST(Study, HasAReferenceAlsoWhereNothingIsResolved)
+{
+    Scene scene = picture_with_a_light_in_vain();
+    const Study study =
+        study_of(scene, named({"brdf", "uniform/light", "power/light"}), {.seed = 4, .spp = 2});
+    for (const StrategyReport& s : study.report.strategies)
+        EXPECT_EQ(s.status, Status::not_resolved);
+    EXPECT_EQ(study.reference_weights[2], 0);  // all of its samples say 0
+    EXPECT_GT(study.reference_weights[1], 1e-3);
+}
+
+/// No light is above the floor: every sample is 0, and that is proved.
+TEST(Study, IsExactWhereNoPointFacesALight)
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    for (Light& light : scene.lights) light.center.y = -5 - light.radius;
+    const Study study = study_of(scene, named({"uniform/light", "brdf"}), {.spp = 8});
+    for (const StrategyReport& s : study.report.strategies) {
+        EXPECT_EQ(s.status, Status::ranked) << reason_words(s.reason);
+        EXPECT_TRUE(s.exact);
+        EXPECT_EQ(s.mean, 0);
+    }
+}
+
+/// A light whose radiance is no number, which no file can bring in.
+TEST(Study, TellsOfTheFirstSampleThatIsNoNumber)
+{
+    Scene scene = small_picture();
+    scene.lights.front().radiance_radius = Vec3<float>(std::numeric_limits<float>::quiet_NaN());
+    const auto strategies = named({"uniform/power"});
+    const Study counted = study_of(scene, strategies, {.spp = 8});
+    EXPECT_GT(counted.report.strategies[0].invalid_samples, 0U);
+    struct Told {
+        std::string name;
+    };
+    const auto tell = [](const Strategy& strategy, const SampleName&) {
+        throw Told{name_of(strategy)};
+    };
+    try {
+        study_of(scene, strategies, {.spp = 8, .on_invalid = tell});
+        FAIL() << "nobody was told";
+    } catch (const Told& told) {
+        EXPECT_EQ(told.name, "uniform/power");
+    }
+}
+
+TEST(Study, TakesEverySampleThatWasAskedFor)
+{
+    for (const std::uint64_t spp : {4, 5, 37, 64, 100}) {
+        const Study study = study_of(small_picture(), named({"uniform/power"}), {.spp = spp});
+        EXPECT_EQ(study.report.strategies[0].samples, spp * study.points->figure_lit);
+        for (const PointResult& result : study.runs[0]->results())
+            ASSERT_EQ(result.luminance.count, spp);
+    }
+}
+
+TEST(Study, ListsProbesApartFromThePicture)
+{
+    const Study study = study_of(small_picture(), named({"uniform/power"}), {.spp = 64});
+    ASSERT_EQ(study.report.strategies[0].probes.size(), 1U);
+    EXPECT_EQ(study.points->figure_points + study.points->shading.background.size(), 40U * 24U);
+    EXPECT_GT(study.report.strategies[0].probes[0].mean, 0);
+}
+
+TEST(Study, OfADarkProbeIsExactlyZero)
+{
+    Scene scene = small_picture();
+    Probe inside = scene.probes[0];
+    inside.position = scene.lights[0].center;
+    scene.probes.push_back(inside);
+    const Study study = study_of(scene, named({"uniform/light"}), {.seed = 1, .spp = 64});
+    const std::vector<PointFigures>& probes = study.report.strategies[0].probes;
+    ASSERT_EQ(probes.size(), 2U);
+    EXPECT_GT(probes[0].mean, 0);
+    EXPECT_EQ(probes[1].mean, 0);
+    EXPECT_EQ(probes[1].mean_se, 0);
+    EXPECT_EQ(probes[1].variance.high, 0);
+}
+
+TEST(Study, LeavesOutWhatIsPastTheBudget)
+{
+    Scene scene = probe_under(thirty_lights_one_dark(), grey_floor());
+    while (scene.lights.size() < 100'000)
+        scene.lights.push_back(scene.lights[scene.lights.size() % 30]);
+    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {32, 32}};
+    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
+    const Study study = study_of(scene, named({"all/light", "power/light"}), {.seconds = 0.5});
+    EXPECT_EQ(study.report.strategies[0].status, Status::not_run);
+    EXPECT_GT(study.report.strategies[0].estimated_seconds, 0.5);
+    EXPECT_NE(study.report.strategies[1].status, Status::not_run);
+}
+
+TEST(Study, OfBlackLightsIsExact)
+{
+    Scene scene = small_picture();
+    for (Light& light : scene.lights) light.radiance_radius = Vec3<float>(0.0F);
+    const Study study = study_of(scene, named({"uniform/power", "power/light"}), {.spp = 32});
+    for (const StrategyReport& s : study.report.strategies) {
+        EXPECT_TRUE(s.exact) << name_of(s.strategy) << ": " << reason_words(s.reason);
+        EXPECT_EQ(s.mean, 0);
+    }
+}
+
+TEST(Study, StopsBetweenStrategiesAndSaysThatItIsPartial)
+{
+    const std::atomic<bool> stop{true};
+    const Study study =
+        study_of(small_picture(), named({"uniform/power"}), {.spp = 64, .stop = &stop});
+    EXPECT_TRUE(study.report.partial);
+}
+
+/// The audit and a strategy's own samples are two estimates of one variance.
+TEST(Audit, FindsTheVarianceThatOwnSamplesShow)
+{
+    constexpr double false_alarm = 1e-6;  // for all strategies together
+    const Scene scene = small_picture();
+    const auto strategies =
+        named({"uniform/light", "power/light", "solid-angle/balance", "power/power", "brdf",
+               "cosine", "uniform/power/union", "power/balance/one-sample", "uniform/balance@3+2",
+               "solid-angle/cutoff", "uniform/maximum"});
+    const AnalyticTracer tracer(scene);
+    const LitScene lit(scene, &tracer, called_for(scene));
+    const AnyExecutor serial = any_executor(SerialExecutor{});
+    const Study study =
+        run_study(lit, strategies, {.spp = static_cast<std::uint64_t>(scaled(2048))}, serial);
+    std::vector<AuditPoint> at;
+    const std::vector<std::size_t> points = spread_points(*study.points, 200);
+    for (const std::size_t p : points) at.push_back({study.points->shading.points[p], 0});
+    const std::vector<AuditEstimate> found = audit(lit, at, strategies, 5, serial);
+    const double bound =
+        1.5 * z_bound(false_alarm, static_cast<int>(strategies.size()));  // errors from 8 groups
+    for (std::size_t s = 0; s < strategies.size(); ++s) {
+        double own = 0, own_se2 = 0;
+        for (const std::size_t p : points) {
+            own += study.runs[s]->results()[p].luminance.variance();
+            own_se2 += std::pow(study.runs[s]->results()[p].luminance.variance_se(), 2);
+        }
+        const double n = static_cast<double>(points.size());
+        const double se =
+            std::sqrt(own_se2 / (n * n) + found[s].variance_se * found[s].variance_se);
+        ASSERT_TRUE(found[s].available);
+        EXPECT_NEAR(found[s].variance, own / n, bound * se) << name_of(strategies[s]);
+        EXPECT_LT(se, 0.3 * own / n) << name_of(strategies[s]);  // so that the test can fail
+    }
+}
+
+TEST(Audit, SeesWhatAStrategyNeverDraws)
+{
+    // Two dim lights, and between them one of a millionth of their solid angle that outshines both.
+    const Scene scene = probe_under({make_light({2, 3, 0}, 0.5, Vec3<double>(10)),
+                                     make_light({-2, 3, 1}, 0.4, Vec3<double>(10)),
+                                     make_light({0, 3, 0}, 1e-4, Vec3<double>(1e9))},
+                                    grey_floor());
+    const auto strategies = named({"solid-angle/light", "power/light"});
+    const Study study = study_of(scene, strategies, {.spp = 4096});
+    EXPECT_EQ(study.report.strategies[0].status, Status::not_resolved)
+        << study.report.strategies[0].variance.value;
+    EXPECT_NE(study.report.strategies[1].status, Status::not_resolved)
+        << reason_words(study.report.strategies[1].reason);
+}
+
+}  // namespace
+}  // namespace mis
