@@ -1,7 +1,7 @@
 #include "mis/io/explain_report.h"
 
 #include "mis/io/atomic_file.h"
-#include "mis/io/json_parts.h"
+#include "mis/io/json_writer.h"
 #include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
@@ -99,12 +99,7 @@ std::string explanation_text(const Explanation& found)
 void write_explanation_json(const Explanation& found, const RunHeader& run, const std::string& path)
 {
     OrderedJson effects = OrderedJson::object(), materials = OrderedJson::array();
-    for (const EffectPlan& e : found.effects)
-        effects[e.name] = {{"on", e.on},
-                           {"share", e.share},
-                           {"why", e.why},
-                           {"saved_rays_per_sample", json_figure(e.saved_rays_per_sample)},
-                           {"saved_seconds_per_sample", json_figure(e.saved_seconds_per_sample)}};
+    for (const EffectPlan& e : found.effects) effects[e.name] = described_json(e);
     for (const MaterialUse& m : found.materials)
         materials.push_back(
             {{"name", m.name}, {"type", m.type}, {"shading_points", m.shading_points}});

@@ -186,10 +186,10 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
     report.strategy = s.strategy;
     report.exact = figures.exact;
     report.samples = s.pooled.samples;
-    report.estimated_seconds = s.estimated_seconds;
     report.invalid_samples = s.invalid_samples;
-    report.first_invalid = s.first_invalid;
+    if (s.invalid_samples > 0) report.first_invalid = s.first_invalid;
     if (!s.was_run) {
+        report.estimated_seconds = s.estimated_seconds;
         report.mean = report.mean_se = report.rays_per_sample = unknown_interval().value;
         report.variance = report.relative_variance = report.seconds_per_point =
             report.seconds_per_sample = report.efficiency = report.seconds_to_1_percent =
