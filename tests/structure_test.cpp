@@ -225,6 +225,24 @@ TEST(Structure, SeesEveryBrokenRule)
         EXPECT_EQ(violations({{path, text}}).size(), 1u) << path << "\n" << text;
 }
 
+/// Where a type's registered name is compared: visit_named() of the list of types is to do it.
+std::vector<std::string> lookups_by_name(const Sources& sources)
+{
+    std::vector<std::string> found;
+    for (const auto& [path, text] : sources)
+        for (const char* compared : {"::name ==", "::name !="})
+            if (path != "math/type_list.h" && text.find(compared) != text.npos)
+                found.push_back(path + " looks a type up by its name; visit_named() does");
+    return found;
+}
+
+TEST(Structure, TypesAreLookedUpByNameInOnePlace)
+{
+    for (const std::string& sentence : lookups_by_name(sources_of_the_tree()))
+        ADD_FAILURE() << sentence;
+    EXPECT_EQ(lookups_by_name({{"engine/a.cpp", "if (P::name == name) f();"}}).size(), 1u);
+}
+
 TEST(Structure, SeesACycle)
 {
     EXPECT_EQ(room_on_a_cycle({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}), "b");

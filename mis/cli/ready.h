@@ -2,6 +2,7 @@
 
 #include "mis/cli/options.h"
 #include "mis/engine/lit_scene.h"
+#include "mis/scene/named.h"
 #include "mis/study/explain.h"
 #include "mis/trace/embree.h"
 
@@ -30,11 +31,12 @@ struct ReadyScene {
     /// Throws UsageError where some tile calls for that effect.
     void require_off(const std::string& name) const
     {
-        for (const EffectPlan& plan : explain(lit, executor).effects)
-            if (plan.name == name && plan.on)
-                throw UsageError(
-                    fmt::format("--effects {}=off: {:.3g} % of the tiles of {} call for it: {}",
-                                name, 100 * plan.share, scene.file, plan.why));
+        const Explanation explanation = explain(lit, executor);
+        const EffectPlan* plan = find_named(explanation.effects, name);
+        if (plan != nullptr && plan->on)
+            throw UsageError(
+                fmt::format("--effects {}=off: {:.3g} % of the tiles of {} call for it: {}", name,
+                            100 * plan->share, scene.file, plan->why));
     }
 
     AnyExecutor executor;

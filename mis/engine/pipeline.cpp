@@ -1,6 +1,7 @@
 #include "mis/engine/pipeline.h"
 
 #include "mis/engine/stages_trace.h"
+#include "mis/scene/named.h"
 #include "mis/scene/raise.h"
 
 #include <stdexcept>
@@ -9,13 +10,6 @@
 namespace mis {
 
 namespace {
-
-template <class List> const auto& named(const List& list, std::string_view name)
-{
-    for (const auto& entry : list)
-        if (entry.name == name) return entry;
-    raise<std::out_of_range>("no stage is made for " + std::string(name));
-}
 
 template <class T>
 const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view technique,
@@ -30,7 +24,7 @@ const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view 
 template <class T>
 Stage<T> evaluation(const Kernels<T>& kernels, std::string_view bsdf, const Effects& effects)
 {
-    return named(kernels.bsdfs, bsdf).evaluate[effects.specular][effects.horizon];
+    return require_named(kernels.bsdfs, "BSDF", bsdf).evaluate[effects.specular][effects.horizon];
 }
 
 template <class T> void add_surfaces(std::vector<NamedStage<T>>& stages, const Effects& effects)
@@ -43,8 +37,9 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
                                       std::string_view bsdf, const Effects& effects,
                                       Stage<T> numbers)
 {
-    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
-    const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
+    const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
+    const LightTechniqueStages<T>& technique =
+        require_named(kernels.light_techniques, "technique", s.technique);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_light_rows<T>});
     stages.push_back({StageKind::numbers, numbers});
@@ -53,7 +48,8 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
     if (technique.sums_lights && effects.light_occlusion)
         stages.push_back({StageKind::meet, policy.sum_light_draw});
     stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
-    stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_light});
+    stages.push_back({StageKind::weigh,
+                      require_named(kernels.heuristics, "heuristic", s.heuristic).weigh_light});
     // The cheaper question first: what one answer hides, the other is not asked about.
     const bool is_screened = effects.lights <= most_screened_lights;
     if (!is_screened) add_surfaces(stages, effects);
@@ -72,8 +68,9 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
                                      std::string_view bsdf, const Effects& effects,
                                      Stage<T> numbers)
 {
-    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
-    const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
+    const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
+    const LightTechniqueStages<T>& technique =
+        require_named(kernels.light_techniques, "technique", s.technique);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_bsdf_rows<T>});
     stages.push_back({StageKind::numbers, numbers});
@@ -86,7 +83,8 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
     if (technique.sums_lights && effects.light_occlusion)
         stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
     stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
-    stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_bsdf});
+    stages.push_back(
+        {StageKind::weigh, require_named(kernels.heuristics, "heuristic", s.heuristic).weigh_bsdf});
     add_surfaces(stages, effects);
     stages.push_back({StageKind::add, kernels.sums[effects.colour].add});
     return stages;
@@ -132,7 +130,7 @@ Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_vi
         pipeline.bsdf_draws = 1;
         return pipeline;
     }
-    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
+    const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
     pipeline.prepare = policy.prepare;
     pipeline.draws_every_light = policy.draws_every_light;
     pipeline.reads_all_lights = policy.reads_all_lights;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/scene/material.h"
+#include "mis/scene/named.h"
 
 #include <array>
 #include <span>
@@ -62,9 +63,7 @@ inline constexpr auto material_type_names = [] {
 /// The entry of that name; null if there is none.
 inline constexpr const MaterialType* find_material_type(std::string_view name)
 {
-    for (const MaterialType& type : material_types)
-        if (type.name == name) return &type;
-    return nullptr;
+    return find_named(material_types, name);
 }
 
 }  // namespace mis
