@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -98,6 +99,14 @@ void check_options(const CompareOptions& options)
     check(options.output);
 }
 
+/// What was left out, each reason once in a run.
+using Reasons = std::set<std::string>;
+void tell_left_out(const StrategySelection& selection, Reasons& told)
+{
+    for (const std::string& reason : selection.left_out)
+        if (told.insert(reason).second) remark("left out: {}\n", reason);
+}
+
 void write_outputs(const CompareOptions& options, const Report& report,
                    std::span<const std::optional<Maps>> maps)
 {
@@ -117,25 +126,27 @@ int run_compare(const CompareOptions& options)
             "--fail-on-regression: found scenes; it takes two reports, as --json wrote them: mis "
             "compare OLD.json NEW.json");
     check_options(options);
-    const StrategySelection selection =
-        select_strategies({options.policies, options.heuristics, options.techniques, options.models,
-                           options.strategies});
+    const StrategyRequest request =
+        read_lists({options.policies, options.heuristics, options.techniques, options.models,
+                    options.strategies});
     if (!options.out.empty()) check_report_folder(options.out, options.force);
     Report report{run_head(options.run)};
     report.at = options.at;
-    if (!options.run.quiet)
-        for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
-
+    Reasons told;
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
     std::vector<std::optional<Maps>> maps;
     watch_for_interrupt();
     Progress progress(!options.run.quiet);
     if (options.scenes.size() > 1)  // a wrong one is found before the first is measured
-        for (const std::string& file : options.scenes)
-            check_memory(read_scene_for(file, options.run), selection.strategies.size(),
+        for (const std::string& file : options.scenes) {
+            const Scene scene = read_scene_for(file, options.run);
+            check_memory(scene, select_strategies(request, traits_of(scene)).strategies.size(),
                          !options.out.empty());
+        }
     for (const std::string& file : options.scenes) {
         const ReadyScene ready(file, options.run);
+        const StrategySelection selection = select_strategies(request, traits_of(ready.scene));
+        if (!options.run.quiet) tell_left_out(selection, told);
         check_memory(ready.scene, selection.strategies.size(), !options.out.empty());
         report.threads = ready.executor.threads;
         if (options.stop.spp)

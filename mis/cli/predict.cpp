@@ -58,9 +58,9 @@ PredictReport::Scene predicted_scene(const Scene& scene, const StrategySelection
 
 int run_predict(const PredictOptions& options)
 {
-    const StrategySelection selection =
-        select_strategies({options.policies, options.heuristics, options.techniques, options.models,
-                           options.strategies});
+    const StrategyRequest request =
+        read_lists({options.policies, options.heuristics, options.techniques, options.models,
+                    options.strategies});
     check(options.output);
     RunOptions run;
     run.threads = options.threads;
@@ -70,6 +70,7 @@ int run_predict(const PredictOptions& options)
         throw UsageError(options.scene +
                          ": found no probes; predict answers at probes alone\n"
                          "    Add \"probes\" to the scene (docs/scene-format.md).");
+    const StrategySelection selection = select_strategies(request, traits_of(scene));
     if (!options.quiet)
         for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
     watch_for_interrupt();

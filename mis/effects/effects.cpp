@@ -1,5 +1,7 @@
 #include "mis/effects/effects.h"
 
+#include "mis/bsdf/any_bsdf.h"
+
 #include <algorithm>
 
 namespace mis {
@@ -18,6 +20,17 @@ bool are_grey(const Lights& lights)
 bool is_grey(const Material& material)
 {
     return is_grey(material.diffuse) && is_grey(material.specular);
+}
+
+bool has_lobes(const Scene& scene)
+{
+    const auto has_lobe = [&](const auto& owner) {
+        const Material& material = scene.materials[static_cast<std::size_t>(owner.material)];
+        const std::shared_ptr<const void> bsdf = make_bsdf(material);
+        return !is_diffuse(AnyBsdf{bsdf.get(), bsdf_number(material.type)});
+    };
+    return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), has_lobe) ||
+           std::any_of(scene.probes.begin(), scene.probes.end(), has_lobe);
 }
 
 Effects all_effects(const Scene& scene) { return {.lights = scene.lights.size()}; }

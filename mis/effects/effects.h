@@ -48,6 +48,9 @@ Effects called_for(const Scene& scene);
 inline constexpr std::array effect_names{"shadows",  "light_occlusion", "horizon",
                                          "specular", "choice",          "colour"};
 
+/// Has the BSDF of some surface or probe a lobe beside its diffuse part?
+bool has_lobes(const Scene& scene);
+
 /// Are all of one grey each, so that what one channel shows is true of all three?
 bool are_grey(const Lights& lights);
 /// Is it of one grey?

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,9 @@ namespace mis {
 struct Choosable {
     std::string name;     ///< "power", …
     std::string summary;  ///< half a sentence
+    /// Is it ranked where nothing is named, on a scene of so many lights, on whose surfaces some
+    /// BSDF has a lobe or none has? nullptr: never.
+    bool (*ranked_by_default)(std::size_t lights, bool has_lobes) = nullptr;
 };
 
 /// What the registry of policies lists, in its order.
@@ -18,6 +22,13 @@ const std::vector<Choosable>& policy_names();
 const std::vector<Choosable>& heuristic_names();
 /// Those of the techniques.
 const std::vector<Choosable>& technique_names();
+
+/// The names of those that say that they are ranked by default on such a scene, in their order.
+std::vector<std::string> ranked_by_default(const std::vector<Choosable>& list, std::size_t lights,
+                                           bool has_lobes);
+
+/// Does this technique draw towards a light that a policy chose?
+bool chooses_light(std::string_view technique);
 
 /// Does this policy draw every light for one sample, in place of choosing one?
 bool draws_every_light(std::string_view policy);

@@ -19,6 +19,8 @@ template <class List> std::vector<Choosable> listed(List list)
     std::vector<Choosable> names;
     for_each_type(list, [&]<class C>() {
         names.push_back({std::string(C::name), std::string(C::summary)});
+        if constexpr (requires { C::ranked_by_default; })
+            names.back().ranked_by_default = C::ranked_by_default;
     });
     return names;
 }
@@ -42,13 +44,6 @@ std::string suggestion(std::string_view found, const std::vector<Choosable>& lis
 [[noreturn]] void refuse(std::string_view strategy, const std::string& reason)
 {
     raise<StrategyError>("strategy \"" + std::string(strategy) + "\": " + reason);
-}
-
-bool chooses_light(std::string_view technique)
-{
-    bool chooses = false;
-    visit_named(Techniques{}, technique, [&]<class K>() { chooses = K::chooses_light; });
-    return chooses;
 }
 
 std::array<int, 2> parse_counts(std::string_view strategy, std::string_view text)
@@ -80,6 +75,23 @@ std::vector<std::string_view> split(std::string_view text, char separator)
 }
 
 }  // namespace
+
+std::vector<std::string> ranked_by_default(const std::vector<Choosable>& list, std::size_t lights,
+                                           bool has_lobes)
+{
+    std::vector<std::string> names;
+    for (const Choosable& c : list)
+        if (c.ranked_by_default != nullptr && c.ranked_by_default(lights, has_lobes))
+            names.push_back(c.name);
+    return names;
+}
+
+bool chooses_light(std::string_view technique)
+{
+    bool chooses = false;
+    visit_named(Techniques{}, technique, [&]<class K>() { chooses = K::chooses_light; });
+    return chooses;
+}
 
 bool draws_every_light(std::string_view policy)
 {

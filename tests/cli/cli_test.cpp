@@ -494,6 +494,28 @@ TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
     EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
 }
 
+TEST(Compare, RanksTheClassicsWhereNothingIsNamed)
+{
+    std::vector<std::string> expected;
+    for (const char* policy : {"uniform", "power", "solid-angle", "radiant-solid-angle", "all"})
+        for (const char* heuristic : {"light", "balance", "power"})
+            expected.push_back(std::string(policy) + "/" + heuristic);
+    expected.emplace_back("brdf");
+    const Outcome run = mis_with("compare '" + scene("veach") + "' '" + scene("single") +
+                                 "' --resolution 8x6 --spp 4 --json -");
+    ASSERT_EQ(run.exit, 0) << run.error;
+    const auto json = nlohmann::json::parse(run.out);
+    ASSERT_EQ(json.at("scenes").size(), 2U);
+    for (const auto& scene : json.at("scenes")) {
+        std::vector<std::string> names;
+        for (const auto& strategy : scene.at("strategies")) names.push_back(strategy.at("name"));
+        EXPECT_EQ(names, expected);
+    }
+    const std::size_t told = run.error.find("left out:");
+    ASSERT_NE(told, run.error.npos);
+    EXPECT_EQ(run.error.find("left out:", told + 1), run.error.npos) << "once a run";
+}
+
 /// Mean and variance of every strategy of a report, to the last digit that is written.
 std::string figures_of(const std::string& report)
 {
