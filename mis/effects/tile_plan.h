@@ -23,9 +23,8 @@ enum LightProof : std::uint8_t {
 
 /// What one tile calls for. Plain data.
 struct TilePlan {
-    bool shadows = true;                       ///< of any light that is not below
-    bool light_occlusion = true;               ///< of any light that is not below
-    bool horizon = true;                       ///< some light is not wholly above every point's
+    /// Of effects_of_tiles; shadows and light occlusion: of any light that is not below.
+    EffectSet effects = effects_of_tiles;
     std::vector<std::uint8_t> lights;          ///< [light]: its proofs; empty: none
     std::shared_ptr<const Blockers> blockers;  ///< null: the hierarchy is asked
 };

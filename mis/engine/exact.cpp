@@ -11,7 +11,7 @@ namespace {
 /// Can no light stand before another one that is above the horizon?
 bool is_unhidden(const LitScene& scene, const TilePlan& plan)
 {
-    if (!plan.light_occlusion) return true;
+    if (!plan.effects.has(Effect::light_occlusion)) return true;
     if (plan.blockers == nullptr) return false;
     for (LightIndex j = 0; j < static_cast<LightIndex>(scene.scene().lights.size()); ++j) {
         const auto proofs = plan.lights.empty() ? 0 : plan.lights[static_cast<std::size_t>(j)];
@@ -26,7 +26,7 @@ bool is_unhidden(const LitScene& scene, const TilePlan& plan)
 
 bool has_closed_form(const LitScene& scene, const Tile& tile)
 {
-    return is_diffuse(scene.bsdf(tile.material)) && !tile.plan.shadows &&
+    return is_diffuse(scene.bsdf(tile.material)) && !tile.plan.effects.has(Effect::shadows) &&
            is_unhidden(scene, tile.plan);
 }
 

@@ -20,31 +20,33 @@ Effects LitScene::effects(int material) const
 {
     Effects effects = effects_;
     if (!effects.by_tile) return effects;
-    effects.specular = effects.specular && !is_diffuse(bsdf(material));
-    effects.colour =
-        effects.colour &&
-        !(has_grey_lights_ && is_grey(scene_->materials[static_cast<std::size_t>(material)]));
+    if (is_diffuse(bsdf(material))) effects.on.set(Effect::specular, false);
+    if (has_grey_lights_ && is_grey(scene_->materials[static_cast<std::size_t>(material)]))
+        effects.on.set(Effect::colour, false);
     return effects;
 }
+
+namespace {
+
+/// Of what is simulated on a material, what a tile leaves of it.
+EffectSet of_tile(EffectSet of_material, EffectSet of_tile_itself)
+{
+    return of_material - (effects_of_tiles - of_tile_itself);
+}
+
+}  // namespace
 
 EffectShares LitScene::tiles_that_call(const GBuffer& buffer) const
 {
     EffectShares counts;
-    const auto one = [](bool is_on) { return is_on ? 1.0 : 0.0; };
-    for (const Tile& tile : buffer.tiles) {
-        const Effects on = effects(tile.material);
-        counts.add({one(tile.plan.shadows && on.shadows),
-                    one(tile.plan.light_occlusion && on.light_occlusion),
-                    one(tile.plan.horizon && on.horizon), one(on.specular), one(on.choice),
-                    one(on.colour)});
-    }
+    for (const Tile& tile : buffer.tiles)
+        counts.add(of_tile(effects(tile.material).on, tile.plan.effects));
     return counts;
 }
 
 template <class T>
 ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
-                                const Kernels<T>& kernels, NumberSource numbers,
-                                const Effects& also)
+                                const Kernels<T>& kernels, NumberSource numbers, EffectSet also)
     : scene_(&scene), strategy_(strategy)
 {
     const Lights& lights = scene.scene().lights;
@@ -58,15 +60,11 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
     pipelines_.resize(materials.size());
     for (std::size_t m = 0; m < materials.size(); ++m) {
         Effects whole = scene.effects(static_cast<int>(m));
-        whole.specular |= also.specular, whole.choice |= also.choice, whole.colour |= also.colour;
-        for (const int k : {0, 1, 2, 3, 4, 5, 6, 7}) {
-            const bool shadows = (k & 4) != 0, light_occlusion = (k & 2) != 0,
-                       horizon = (k & 1) != 0;
+        whole.on = whole.on | (also - effects_of_tiles);
+        for (std::size_t bits = 0; bits < pipelines_[m].size(); ++bits) {
             Effects effects = whole;
-            effects.shadows &= shadows, effects.light_occlusion &= light_occlusion;
-            effects.horizon &= horizon;
-            pipelines_[m][shadows][light_occlusion][horizon] =
-                compose(kernels, strategy, materials[m].type, effects, numbers);
+            effects.on = of_tile(whole.on, EffectSet::of_bits(bits));
+            pipelines_[m][bits] = compose(kernels, strategy, materials[m].type, effects, numbers);
         }
     }
     common_.lights = &lights;

@@ -67,7 +67,7 @@ public:
     /// and kernels. also: effects that no scene, tile or material has left out, whatever it calls
     /// for.
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
-                  NumberSource numbers, const Effects& also = no_effects);
+                  NumberSource numbers, EffectSet also = {});
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
@@ -84,16 +84,16 @@ public:
 private:
     const Pipeline<T>& pipeline(int material, const TilePlan& plan) const
     {
-        return pipelines_[static_cast<std::size_t>(material)][plan.shadows][plan.light_occlusion]
-                         [plan.horizon];
+        return pipelines_[static_cast<std::size_t>(material)][plan.effects.bits()];
     }
 
     const LitScene* scene_;
     Strategy strategy_;
     std::shared_ptr<const LightOrder> order_;  ///< of Sobol' numbers; else the scene's
     std::shared_ptr<const void> policy_;
-    /// [material][with shadows][with light occlusion][with a horizon]
-    std::vector<std::array<std::array<std::array<Pipeline<T>, 2>, 2>, 2>> pipelines_;
+    static_assert((effects_of_tiles.bits() & (effects_of_tiles.bits() + 1)) == 0, "the first ones");
+    /// [material][bits of a tile's effects]
+    std::vector<std::array<Pipeline<T>, effects_of_tiles.bits() + 1>> pipelines_;
     TileJob<T> common_;
 };
 

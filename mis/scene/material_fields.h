@@ -54,6 +54,15 @@ inline constexpr std::array material_types{
     MaterialType{"ggx", material_fields::ggx},
 };
 
+static_assert(
+    [] {
+        for (const MaterialType& type : material_types)
+            for (const MaterialField& field : type.fields)
+                if ((field.color == nullptr) == (field.number == nullptr)) return false;
+        return true;
+    }(),
+    "a field is a colour or a number");
+
 inline constexpr auto material_type_names = [] {
     std::array<std::string_view, material_types.size()> names;
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = material_types[i].name;
