@@ -26,6 +26,7 @@ ScalarBsdf scalar_bsdf(const Material& material)
             return bsdf.sample(wo, lobe, u);
         };
         made.draws = bsdf.draws();
+        if constexpr (B::has_lobe) made.lobe_share = bsdf.lobe_share();
     });
     if (!made.evaluate) raise<std::out_of_range>("no BSDF is called " + material.type);
     return made;
@@ -99,10 +100,16 @@ ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights)
 const ScalarPolicy::Table& ScalarPolicy::at(const Vec3<double>& x, const Vec3<double>& n,
                                             const Vec3<double>& wo, const AnyBsdf& bsdf)
 {
-    scratch_.clear();
     const LightColumns<double> columns =
         reads_all_lights_ ? fill_light_columns(*lights_, x, columns_) : LightColumns<double>{};
-    table_ = prepare_({Vec3<double>(0), n, wo, bsdf, x}, columns, scratch_);
+    return at({Vec3<double>(0), n, wo, bsdf, x}, columns);
+}
+
+const ScalarPolicy::Table& ScalarPolicy::at(const ChoicePoint<double>& point,
+                                            const LightColumns<double>& columns)
+{
+    scratch_.clear();
+    table_ = prepare_(point, columns, scratch_);
     return table_;
 }
 

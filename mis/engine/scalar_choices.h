@@ -20,6 +20,7 @@ struct ScalarBsdf {
     std::function<BsdfValue<double>(const Vec3<double>& wo, const Vec3<double>& wi)> evaluate;
     std::function<Vec3<double>(const Vec3<double>& wo, double lobe, const Vec2<double>& u)> sample;
     bool draws = true;
+    double lobe_share = 0;  ///< of the draws: those with `lobe` below it are the lobe's
 };
 
 /// Throws std::out_of_range for an unknown type.
@@ -53,6 +54,10 @@ public:
     /// wo: in the shading frame about n.
     const Table& at(const Vec3<double>& x, const Vec3<double>& n, const Vec3<double>& wo,
                     const AnyBsdf& bsdf);
+    /// The same where the lights' columns are at hand; none are asked for unless
+    /// reads_all_lights().
+    const Table& at(const ChoicePoint<double>& point, const LightColumns<double>& columns);
+    bool reads_all_lights() const { return reads_all_lights_; }
     bool draws_every_light() const { return draws_every_light_; }
 
 private:

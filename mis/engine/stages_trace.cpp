@@ -2,6 +2,7 @@
 
 #include "mis/engine/listed_rays.h"
 #include "mis/engine/rows.h"
+#include "mis/engine/shadow_ray.h"
 #include "mis/math/frame.h"
 #include "mis/sampling/sobol.h"
 #include "mis/trace/intersect.h"
@@ -238,18 +239,6 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
         },
         [&](std::size_t i, bool is_hidden) { hide(left[i], is_hidden); });
 }
-
-namespace {
-
-/// To a light, and no further than to what may touch it: rays start some way off their point and
-/// are traced in float, so what is met that little before the light is not nearer than it.
-ShadowRay shadow_ray(const ShadingPoint& point, const Vec3<float>& wi, double distance)
-{
-    const double off = float_offset(largest_coordinate(vec_cast<double>(point.ray_origin)));
-    return {point.ray_origin, wi, static_cast<float>(std::max(distance * (1 - 1e-6) - off, 0.0))};
-}
-
-}  // namespace
 
 template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
 {

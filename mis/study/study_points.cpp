@@ -1,6 +1,7 @@
 #include "mis/study/study_points.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace mis {
 
@@ -16,6 +17,15 @@ void append(GBuffer& all, const GBuffer& more)
 }
 
 }  // namespace
+
+int StudyPoints::material_of(std::size_t point) const
+{
+    const std::vector<Tile>& tiles = shading.tiles;
+    const auto after =
+        std::upper_bound(tiles.begin(), tiles.end(), point,
+                         [](std::size_t p, const Tile& tile) { return p < tile.first; });
+    return std::prev(after)->material;
+}
 
 StudyPoints find_study_points(const LitScene& scene, const AnyExecutor& executor)
 {
