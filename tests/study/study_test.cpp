@@ -2,10 +2,10 @@
 
 #include "mis/run/serial.h"
 #include "mis/run/tbb.h"
-#include "mis/study/audit.h"
 #include "mis/trace/analytic.h"
 #include "mis/words/reasons.h"
 
+#include "tests/study/small_picture.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
 
@@ -20,22 +20,6 @@ namespace mis {
 namespace {
 
 /// A small picture of a floor with a blocker under three lights, and a probe.
-Scene small_picture()
-{
-    Scene scene = probe_under(three_lights_apart(), grey_floor());
-    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {40, 24}};
-    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
-    scene.surfaces.push_back({SphereSurface{{0.5, 0.6, 0.5}, 0.3}, 0});
-    return scene;
-}
-
-std::vector<Strategy> named(const std::vector<const char*>& names)
-{
-    std::vector<Strategy> strategies;
-    for (const char* name : names) strategies.push_back(parse_strategy(name));
-    return strategies;
-}
-
 Study study_of(const Scene& scene, const std::vector<Strategy>& strategies,
                const StudyOptions& options,
                const AnyExecutor& executor = any_executor(SerialExecutor{}))
@@ -70,8 +54,8 @@ void expect_the_same_on_any_number_of_threads(const Scene& scene,
 TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
 {
     const Scene scene = small_picture();
-    const auto strategies =
-        named({"uniform/power", "solid-angle/balance", "all/light", "brdf", "power/light/union"});
+    const auto strategies = strategies_named(
+        {"uniform/power", "solid-angle/balance", "all/light", "brdf", "power/light/union"});
     for (const StudyOptions& options :
          {StudyOptions{.spp = 37}, StudyOptions{.samples_per_scrambling = 8, .spp = 64}})
         expect_the_same_on_any_number_of_threads(scene, strategies, options);
@@ -82,7 +66,8 @@ TEST(Study, HasTheSameFiguresOnAnyNumberOfThreads)
 TEST(Study, OfSobolSequencesHasTheirVariance)
 {
     const Scene scene = probe_under(three_lights_apart(), grey_floor());
-    const auto strategies = named({"uniform/light", "power/power", "radiant-solid-angle/balance"});
+    const auto strategies =
+        strategies_named({"uniform/light", "power/power", "radiant-solid-angle/balance"});
     const Study independent = study_of(scene, strategies, {.spp = 65536});
     const Study sobol = study_of(scene, strategies, {.samples_per_scrambling = 64, .spp = 65536});
     for (std::size_t s = 0; s < strategies.size(); ++s) {
@@ -136,8 +121,8 @@ TEST(Study, IsNotLedAstrayByAStrategyThatIsNotResolved)
     with_another.push_back("power/light");
     for (const std::uint32_t sequence : {0U, 4U}) {
         const StudyOptions options{.seed = 4, .samples_per_scrambling = sequence, .spp = 1024};
-        const Study alone = study_of(scene, named(honest), options),
-                    beside = study_of(scene, named(with_another), options);
+        const Study alone = study_of(scene, strategies_named(honest), options),
+                    beside = study_of(scene, strategies_named(with_another), options);
         ASSERT_EQ(alone.report.strategies[0].status, Status::ranked)
             << reason_words(alone.report.strategies[0].reason);
         ASSERT_EQ(beside.report.strategies[0].status, Status::ranked)
@@ -153,8 +138,8 @@ TEST(Study, IsNotLedAstrayByAStrategyThatIsNotResolved)
 TEST(Study, HasAReferenceAlsoWhereNothingIsResolved)
 {
     Scene scene = picture_with_a_light_in_vain();
-    const Study study =
-        study_of(scene, named({"brdf", "uniform/light", "power/light"}), {.seed = 4, .spp = 2});
+    const Study study = study_of(scene, strategies_named({"brdf", "uniform/light", "power/light"}),
+                                 {.seed = 4, .spp = 2});
     for (const StrategyReport& s : study.report.strategies)
         EXPECT_EQ(s.status, Status::not_resolved);
     EXPECT_EQ(study.reference_weights[2], 0);  // all of its samples say 0
@@ -166,7 +151,7 @@ TEST(Study, IsExactWhereNoPointFacesALight)
 {
     Scene scene = probe_under(three_lights_apart(), grey_floor());
     for (Light& light : scene.lights) light.center.y = -5 - light.radius;
-    const Study study = study_of(scene, named({"uniform/light", "brdf"}), {.spp = 8});
+    const Study study = study_of(scene, strategies_named({"uniform/light", "brdf"}), {.spp = 8});
     for (const StrategyReport& s : study.report.strategies) {
         EXPECT_EQ(s.status, Status::ranked) << reason_words(s.reason);
         EXPECT_TRUE(s.exact);
@@ -179,7 +164,7 @@ TEST(Study, TellsOfTheFirstSampleThatIsNoNumber)
 {
     Scene scene = small_picture();
     scene.lights.front().radiance_radius = Vec3<float>(std::numeric_limits<float>::quiet_NaN());
-    const auto strategies = named({"uniform/power"});
+    const auto strategies = strategies_named({"uniform/power"});
     const Study counted = study_of(scene, strategies, {.spp = 8});
     EXPECT_GT(counted.report.strategies[0].invalid_samples, 0U);
     struct Told {
@@ -199,7 +184,8 @@ TEST(Study, TellsOfTheFirstSampleThatIsNoNumber)
 TEST(Study, TakesEverySampleThatWasAskedFor)
 {
     for (const std::uint64_t spp : {4, 5, 37, 64, 100}) {
-        const Study study = study_of(small_picture(), named({"uniform/power"}), {.spp = spp});
+        const Study study =
+            study_of(small_picture(), strategies_named({"uniform/power"}), {.spp = spp});
         EXPECT_EQ(study.report.strategies[0].samples, spp * study.points->figure_lit);
         for (const PointResult& result : study.runs[0]->results())
             ASSERT_EQ(result.luminance.count, spp);
@@ -208,7 +194,7 @@ TEST(Study, TakesEverySampleThatWasAskedFor)
 
 TEST(Study, ListsProbesApartFromThePicture)
 {
-    const Study study = study_of(small_picture(), named({"uniform/power"}), {.spp = 64});
+    const Study study = study_of(small_picture(), strategies_named({"uniform/power"}), {.spp = 64});
     ASSERT_EQ(study.report.strategies[0].probes.size(), 1U);
     EXPECT_EQ(study.points->figure_points + study.points->shading.background.size(), 40U * 24U);
     EXPECT_GT(study.report.strategies[0].probes[0].mean, 0);
@@ -220,7 +206,8 @@ TEST(Study, OfADarkProbeIsExactlyZero)
     Probe inside = scene.probes[0];
     inside.position = scene.lights[0].center;
     scene.probes.push_back(inside);
-    const Study study = study_of(scene, named({"uniform/light"}), {.seed = 1, .spp = 64});
+    const Study study =
+        study_of(scene, strategies_named({"uniform/light"}), {.seed = 1, .spp = 64});
     const std::vector<PointFigures>& probes = study.report.strategies[0].probes;
     ASSERT_EQ(probes.size(), 2U);
     EXPECT_GT(probes[0].mean, 0);
@@ -236,7 +223,8 @@ TEST(Study, LeavesOutWhatIsPastTheBudget)
         scene.lights.push_back(scene.lights[scene.lights.size() % 30]);
     scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {32, 32}};
     scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
-    const Study study = study_of(scene, named({"all/light", "power/light"}), {.seconds = 0.5});
+    const Study study =
+        study_of(scene, strategies_named({"all/light", "power/light"}), {.seconds = 0.5});
     EXPECT_EQ(study.report.strategies[0].status, Status::not_run);
     EXPECT_GT(study.report.strategies[0].estimated_seconds, 0.5);
     EXPECT_NE(study.report.strategies[1].status, Status::not_run);
@@ -246,7 +234,8 @@ TEST(Study, OfBlackLightsIsExact)
 {
     Scene scene = small_picture();
     for (Light& light : scene.lights) light.radiance_radius = Vec3<float>(0.0F);
-    const Study study = study_of(scene, named({"uniform/power", "power/light"}), {.spp = 32});
+    const Study study =
+        study_of(scene, strategies_named({"uniform/power", "power/light"}), {.spp = 32});
     for (const StrategyReport& s : study.report.strategies) {
         EXPECT_TRUE(s.exact) << name_of(s.strategy) << ": " << reason_words(s.reason);
         EXPECT_EQ(s.mean, 0);
@@ -257,43 +246,8 @@ TEST(Study, StopsBetweenStrategiesAndSaysThatItIsPartial)
 {
     const std::atomic<bool> stop{true};
     const Study study =
-        study_of(small_picture(), named({"uniform/power"}), {.spp = 64, .stop = &stop});
+        study_of(small_picture(), strategies_named({"uniform/power"}), {.spp = 64, .stop = &stop});
     EXPECT_TRUE(study.report.partial);
-}
-
-/// The audit and a strategy's own samples are two estimates of one variance.
-TEST(Audit, FindsTheVarianceThatOwnSamplesShow)
-{
-    constexpr double false_alarm = 1e-6;  // for all strategies together
-    const Scene scene = small_picture();
-    const auto strategies =
-        named({"uniform/light", "power/light", "solid-angle/balance", "power/power", "brdf",
-               "cosine", "uniform/power/union", "power/balance/one-sample", "uniform/balance@3+2",
-               "solid-angle/cutoff", "uniform/maximum"});
-    const AnalyticTracer tracer(scene);
-    const LitScene lit(scene, &tracer, called_for(scene));
-    const AnyExecutor serial = any_executor(SerialExecutor{});
-    const Study study =
-        run_study(lit, strategies, {.spp = static_cast<std::uint64_t>(scaled(2048))}, serial);
-    std::vector<AuditPoint> at;
-    const std::vector<std::size_t> points = spread_points(*study.points, 200);
-    for (const std::size_t p : points) at.push_back({study.points->shading.points[p], 0});
-    const std::vector<AuditEstimate> found = audit(lit, at, strategies, 5, serial);
-    const double bound =
-        1.5 * z_bound(false_alarm, static_cast<int>(strategies.size()));  // errors from 8 groups
-    for (std::size_t s = 0; s < strategies.size(); ++s) {
-        double own = 0, own_se2 = 0;
-        for (const std::size_t p : points) {
-            own += study.runs[s]->results()[p].luminance.variance();
-            own_se2 += std::pow(study.runs[s]->results()[p].luminance.variance_se(), 2);
-        }
-        const double n = static_cast<double>(points.size());
-        const double se =
-            std::sqrt(own_se2 / (n * n) + found[s].variance_se * found[s].variance_se);
-        ASSERT_TRUE(found[s].available);
-        EXPECT_NEAR(found[s].variance, own / n, bound * se) << name_of(strategies[s]);
-        EXPECT_LT(se, 0.3 * own / n) << name_of(strategies[s]);  // so that the test can fail
-    }
 }
 
 TEST(Audit, SeesWhatAStrategyNeverDraws)
@@ -303,7 +257,7 @@ TEST(Audit, SeesWhatAStrategyNeverDraws)
                                      make_light({-2, 3, 1}, 0.4, Vec3<double>(10)),
                                      make_light({0, 3, 0}, 1e-4, Vec3<double>(1e9))},
                                     grey_floor());
-    const auto strategies = named({"solid-angle/light", "power/light"});
+    const auto strategies = strategies_named({"solid-angle/light", "power/light"});
     const Study study = study_of(scene, strategies, {.spp = 4096});
     EXPECT_EQ(study.report.strategies[0].status, Status::not_resolved)
         << study.report.strategies[0].variance.value;
