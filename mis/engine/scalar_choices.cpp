@@ -87,6 +87,7 @@ ScalarPolicy::ScalarPolicy(std::string_view name, const Lights& lights)
         const auto policy = std::make_shared<const P>(lights);
         draws_every_light_ = P::draws_every_light;
         reads_all_lights_ = P::reads_all_lights;
+        has_tables_ = P::table_bytes(lights.size()) > 0;
         prepare_ = [policy](const ChoicePoint<double>& point, const LightColumns<double>& columns,
                             Scratch& scratch) {
             const auto table = policy->template prepare<double>(point, columns, scratch);

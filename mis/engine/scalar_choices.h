@@ -58,11 +58,14 @@ public:
     /// reads_all_lights().
     const Table& at(const ChoicePoint<double>& point, const LightColumns<double>& columns);
     bool reads_all_lights() const { return reads_all_lights_; }
+    /// Does a table differ from point to point, though it was made without a look at all lights? A
+    /// probability then takes a walk.
+    bool walks() const { return !reads_all_lights_ && has_tables_; }
     bool draws_every_light() const { return draws_every_light_; }
 
 private:
     const Lights* lights_;
-    bool draws_every_light_ = false;
+    bool draws_every_light_ = false, has_tables_ = false;
     std::function<Table(const ChoicePoint<double>&, const LightColumns<double>&, Scratch&)>
         prepare_;
     bool reads_all_lights_ = false;

@@ -16,6 +16,7 @@ void SharedIntegrals::take(const DirectionSet& set, std::span<SharedSums> sums,
     begin(set.mixture(), sums);
     for (const SharedDirection& d : set.directions()) {
         if (d.shows_its_light() && d.value > 0) all_.add(d.group, d.value, 1 / d.density);
+        over_density_ = 1 / d.density, over_marginal_ = 1 / d.marginal;
         find_densities(set, d);
         for (std::size_t s = 0; s < plan_->entries.size(); ++s) add(s, set, d);
     }
@@ -84,47 +85,47 @@ void SharedIntegrals::find_densities(const DirectionSet& set, const SharedDirect
 void SharedIntegrals::add(std::size_t s, const DirectionSet& set, const SharedDirection& d)
 {
     const SharedPlan::Entry& entry = plan_->entries[s];
-    const double mixture = entry.sums_lights ? d.marginal : d.density;
+    const double over_mixture = entry.sums_lights ? over_marginal_ : over_density_;
     const double value = entry.sums_lights || d.shows_its_light() ? d.value : 0;
     Pair& sums = pairs_[s];
     if (entry.density == SharedPlan::none) {
         if (!(value > 0)) return;
         const double pdf = entry.direction.direction_pdf(d.bsdf_pdf, d.local);
-        if (pdf > 0) sums.bsdf.add_beyond_0(d.group, value / pdf, pdf / mixture);
-        else missed_[s] += value / mixture;
+        if (pdf > 0) sums.bsdf.add_beyond_0(d.group, value / pdf, pdf * over_mixture);
+        else missed_[s] += value * over_mixture;
         return;
     }
     const std::array<double, 2> density{entry.light * density_[entry.density],
                                         entry.bsdf * d.bsdf_pdf};
     if (!(value > 0)) {
-        if (density[0] > 0) add_light_draws(s, set, d, 0, mixture);
+        if (density[0] > 0) add_light_draws(s, set, d, 0);
         return;
     }
     if (density[0] > 0)
         add_light_draws(s, set, d,
-                        entry.light_draws * entry.heuristic(density, 0) * value / density[0],
-                        mixture);
+                        entry.light_draws * entry.heuristic(density, 0) * value / density[0]);
     if (density[1] > 0)
         (entry.is_one_sample ? sums.light : sums.bsdf)
             .add_beyond_0(d.group,
                           entry.bsdf_draws * entry.heuristic(density, 1) * value / density[1],
-                          density[1] / entry.bsdf_draws / mixture);
-    if (!(density[0] > 0) && !(density[1] > 0)) missed_[s] += value / mixture;
+                          entry.bsdf_share * d.bsdf_pdf * over_mixture);
+    if (!(density[0] > 0) && !(density[1] > 0)) missed_[s] += value * over_mixture;
 }
 
 void SharedIntegrals::add_light_draws(std::size_t s, const DirectionSet& set,
-                                      const SharedDirection& d, double value, double mixture)
+                                      const SharedDirection& d, double value)
 {
     const SharedPlan::Entry& entry = plan_->entries[s];
+    const double over_mixture = entry.sums_lights ? over_marginal_ : over_density_;
     if (entry.every == SharedPlan::none) {
         pairs_[s].light.add(d.group, value,
-                            entry.light / entry.light_draws * density_[entry.density] / mixture);
+                            entry.light_share * density_[entry.density] * over_mixture);
         return;
     }
     const std::size_t technique = plan_->densities[entry.density].technique;
     for (std::size_t i = 0; i < (entry.sums_lights ? d.along : 1); ++i) {
         const LightIndex light = set.light_along(d, i);
-        const double share = set.pdf(technique, d, i) / mixture;
+        const double share = set.pdf(technique, d, i) * over_mixture;
         sums_of(set.mixture(), light)[entry.every].add(d.group, value, share);
         if (!(value > 0)) continue;
         seen_mean_[entry.every] += value * share;

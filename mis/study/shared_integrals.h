@@ -56,7 +56,7 @@ private:
     void find_densities(const DirectionSet& set, const SharedDirection& d);
     void add(std::size_t s, const DirectionSet& set, const SharedDirection& d);
     void add_light_draws(std::size_t s, const DirectionSet& set, const SharedDirection& d,
-                         double value, double mixture);
+                         double value);
     /// Sums of each strategy that draws every light, of this light's own draws.
     std::span<CentredSums> sums_of(const LightMixture& mixture, LightIndex light);
     void add_rounds_light_sums(std::span<LightSums> lights) const;
@@ -71,6 +71,7 @@ private:
     std::vector<double> density_;                ///< [density of the plan]
     std::vector<double> missed_;                 ///< [strategy]
     CentredSums all_;
+    double over_density_ = 0, over_marginal_ = 0;  ///< one over D of the direction at hand
     /// Lights that the round has met, and each one's place among them.
     std::vector<LightIndex> met_;
     std::vector<std::int32_t> place_;    ///< [light]; −1: not met

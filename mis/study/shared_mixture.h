@@ -4,6 +4,7 @@
 #include "mis/engine/scalar_choices.h"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,8 +34,9 @@ public:
     /// By that policy.
     double probability_by(std::size_t policy, LightIndex j) const
     {
-        return is_dense_ ? dense_[policy * lights_ + static_cast<std::size_t>(j)]
-                         : tables_[policy]->probability(j);
+        return is_dense_ && policy != walked_
+                   ? dense_[policy * lights_ + static_cast<std::size_t>(j)]
+                   : tables_[policy]->probability(j);
     }
 
     /// What of all the light that reaches the point comes from this one, were none hidden: in
@@ -42,11 +44,15 @@ public:
     double guess(LightIndex j) const { return probability_by(guess_, j); }
 
 private:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    double policies_that_count() const;
     void mix();
 
     const LitScene* scene_;
     std::size_t lights_;
-    std::size_t listed_;     ///< policies of the list; those that are mixed in beside stand behind
+    std::size_t listed_;  ///< policies of the list; those that are mixed in beside stand behind
+    std::size_t walked_ = none;  ///< a policy of the list that is asked light by light, if one is
+    double walked_share_ = 0;    ///< of the mixture
     std::size_t guess_ = 0;  ///< the place of `product`, or where there are many lights of `tree`
     bool draws_every_light_, is_dense_;
     std::vector<ScalarPolicy> policies_;

@@ -49,7 +49,8 @@ SharedPlan::SharedPlan(std::span<const Strategy> strategies)
         entry.is_one_sample = s.model == Model::one_sample;
         entry.light = entry.is_one_sample ? 0.5 : s.counts[0];
         entry.bsdf = entry.is_one_sample ? 0.5 : s.counts[1];
-        if (!entry.is_one_sample)
+        if (entry.is_one_sample) entry.light_share = entry.bsdf_share = 0.5;
+        else
             entry.light_draws = std::max(1.0, entry.light),
             entry.bsdf_draws = std::max(1.0, entry.bsdf);
         entry.sums_lights = techniques[technique].sums_lights;

@@ -34,6 +34,8 @@ struct SharedPlan {
         double light = 0, bsdf = 0;
         /// Independent draws that a sample adds up, at least 1; of the one-sample model, its one.
         double light_draws = 1, bsdf_draws = 1;
+        /// How often such a draw is of this technique: 1, or ½.
+        double light_share = 1, bsdf_share = 1;
         bool sums_lights = false;  ///< of the light technique
         bool is_one_sample = false;
     };

@@ -5,6 +5,7 @@
 #include "mis/run/serial.h"
 #include "mis/run/tbb.h"
 #include "mis/strategy/names.h"
+#include "mis/study/study.h"
 #include "mis/study/study_points.h"
 #include "mis/trace/analytic.h"
 
@@ -12,6 +13,7 @@
 #include "tests/study/small_picture.h"
 #include "tests/support/scenes.h"
 #include "tests/support/statistics.h"
+#include "tests/support/uniforms.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +106,35 @@ TEST(SharedSamples, SayWhatAStrategyNeverDraws)
     shared.take(20, any_executor(SerialExecutor{}));
     EXPECT_GT(shared.missed(0), 0.1 * shared.luminance(0).value);
     EXPECT_EQ(shared.missed(1), 0);
+}
+
+/// Past the number that each have a probability of their own in the mixture.
+TEST(SharedSamples, OfManyLightsAgreeWithOwnSamples)
+{
+    constexpr double false_alarm = 1e-6;  // for all strategies together
+    Uniforms u(4);
+    Scene scene = probe_under({}, grey_floor());
+    for (int i = 0; i < 10'500; ++i)
+        scene.lights.push_back(make_light({u.between(-9, 9), u.between(2, 6), u.between(-9, 9)},
+                                          u.between(0.01, 0.04), Vec3<double>(u.between(1, 3))));
+    const auto strategies =
+        strategies_named({"uniform/light", "power/balance", "solid-angle/light", "tree/light",
+                          "power/light/union", "tree/power/one-sample"});
+    const SharedGround ground(scene);
+    const AnyExecutor serial = any_executor(SerialExecutor{});
+    const Study own = run_study(ground.lit, strategies,
+                                {.spp = static_cast<std::uint64_t>(scaled(20'000))}, serial);
+    SharedSamples shared(ground.lit, ground.points, strategies, {.seed = 5});
+    shared.take(scaled(1'000) + 1, serial);
+    const double bound = 1.2 * z_bound(false_alarm, static_cast<int>(strategies.size()));
+    for (std::size_t s = 0; s < strategies.size(); ++s) {
+        const Moments& moments = own.runs[s]->results()[0].luminance;
+        const SharedVariance found = shared.at(s, 0);
+        EXPECT_NEAR(found.value, moments.variance(),
+                    bound * std::hypot(found.se, moments.variance_se()))
+            << name_of(strategies[s]);
+        EXPECT_LT(found.se, 0.05 * found.value) << name_of(strategies[s]);
+    }
 }
 
 /// Two estimates of the same variances, by code that shares the formulas of choices alone.
