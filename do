@@ -120,7 +120,7 @@ case ${1-} in
         cmake -S "$root" --preset fuzz >&2
         (cd "$root" && cmake --build --preset fuzz >&2)
         corpus=$root/build/fuzz/corpus
-        for reader in scene table report; do
+        for reader in scene table report mesh; do
             mkdir -p "$corpus/$reader"
             case $reader in
                 scene)
@@ -128,6 +128,7 @@ case ${1-} in
                     "$root/build/fuzz/tests/fuzz/scene_seeds" "$corpus/scene"
                     ;;
                 report) cp "$root"/tests/fuzz/report.json "$corpus/report/" ;;
+                mesh) cp "$root"/tests/fuzz/mesh*.{obj,ply} "$root"/scenes/meshes/* "$corpus/mesh/" ;;
                 table) cp "$root"/scenes/*.csv "$corpus/table/" 2>/dev/null || printf 'x,y,z,radius,r,g,b\n0,1,2,.5,1,1,1\n' >"$corpus/table/one.csv" ;;
             esac
             say "$reader reader, ${2-600} s"

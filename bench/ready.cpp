@@ -13,7 +13,8 @@ Effects effects_of(const Scene& scene, Effect effect)
 {
     if (effect == Effect::called_for) return called_for(scene);
     Effects effects = all_effects(scene);
-    if (effect == Effect::none) effects.shadows = effects.light_occlusion = false;
+    if (effect == Effect::none)
+        effects.on = effects.on - EffectSet{mis::Effect::shadows, mis::Effect::light_occlusion};
     return effects;
 }
 }  // namespace

@@ -20,13 +20,12 @@ find_package(TBB ${need})
 find_package(Boost 1.74 ${need})  # headers alone: Boost.Math
 find_package(fmt ${need})
 find_package(nlohmann_json ${need})
-find_package(assimp ${need})
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 find_package(OpenImageIO MODULE ${need})
 # Plots of the report: one file that the build embeds.
 find_file(MIS_D3_FILE d3.min.js PATHS /usr/share/nodejs/d3/dist PATH_SUFFIXES nodejs/d3/dist ${need_file})
 mark_as_advanced(MIS_D3_FILE)
-if(TARGET Boost::headers AND fmt_FOUND AND nlohmann_json_FOUND AND assimp_FOUND AND OpenImageIO_FOUND AND MIS_D3_FILE)
+if(TARGET Boost::headers AND fmt_FOUND AND nlohmann_json_FOUND AND OpenImageIO_FOUND AND MIS_D3_FILE)
   set(MIS_HAS_IO ON)
 endif()
 

@@ -350,7 +350,8 @@ def complete(name, scene):
         place = ["–", "–", "–"]
         if is_ranked(s):
             ranks = sorted({s["rank_low"], s["rank_high"]})
-            place = ["–".join(map(str, ranks)), with_error(s["variance"]), number(value(s, "efficiency"))]
+            efficiency = "infinite" if s["exact"] else number(value(s, "efficiency"))
+            place = ["–".join(map(str, ranks)), with_error(s["variance"]), efficiency]
         rows.append([f"`{s['name']}`", *place, *figures_of(s)])
     ranking = table(["strategy", "rank", "variance", "efficiency", *FIGURES], rows)
     pixels = "{} × {} pixels".format(*scene["resolution"])

@@ -31,7 +31,7 @@ const Graph may_include{
     {"effects", {"trace", "strategy"}},
     {"engine",
      {"technique", "heuristic", "strategy", "effects", "run/executor.h", "run/pool.h",
-      "run/serial.h"}},
+      "run/made_once.h", "run/serial.h"}},
     {"predict", {"technique", "heuristic", "strategy", "run/executor.h"}},
     {"report", {"strategy", "effects"}},
     {"stats", {"report"}},
@@ -55,7 +55,6 @@ const std::map<std::string, Names> outside_headers{
     {"oneapi/", {"run/tbb.h", "run/tbb.cpp"}},
     {"OpenImageIO/", {"io"}},
     {"nlohmann/", {"io"}},
-    {"assimp/", {"io"}},
     {"fmt/", {"io", "cli", "bind/python"}},
     {"CLI/", {"cli"}},
     {"pybind11/", {"bind/python"}},
@@ -223,6 +222,24 @@ TEST(Structure, SeesEveryBrokenRule)
     };
     for (const auto& [path, text] : broken)
         EXPECT_EQ(violations({{path, text}}).size(), 1u) << path << "\n" << text;
+}
+
+/// Where a type's registered name is compared: visit_named() of the list of types is to do it.
+std::vector<std::string> lookups_by_name(const Sources& sources)
+{
+    std::vector<std::string> found;
+    for (const auto& [path, text] : sources)
+        for (const char* compared : {"::name ==", "::name !="})
+            if (path != "math/type_list.h" && text.find(compared) != text.npos)
+                found.push_back(path + " looks a type up by its name; visit_named() does");
+    return found;
+}
+
+TEST(Structure, TypesAreLookedUpByNameInOnePlace)
+{
+    for (const std::string& sentence : lookups_by_name(sources_of_the_tree()))
+        ADD_FAILURE() << sentence;
+    EXPECT_EQ(lookups_by_name({{"engine/a.cpp", "if (P::name == name) f();"}}).size(), 1u);
 }
 
 TEST(Structure, SeesACycle)

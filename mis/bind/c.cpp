@@ -95,11 +95,9 @@ DirectSample<float> sample_by(const AnyDirectPoint<float>& point, const Strategy
 Sampler* sampler_of(const Strategy& strategy)
 {
     Sampler* found = nullptr;
-    for_each_type(Heuristics{}, [&]<class Heuristic>() {
-        if (Heuristic::name != strategy.heuristic) return;
-        for_each_type(Techniques{}, [&]<class Technique>() {
-            if constexpr (Technique::chooses_light)
-                if (Technique::name == strategy.technique) found = sample_by<Heuristic, Technique>;
+    visit_named(Heuristics{}, strategy.heuristic, [&]<class Heuristic>() {
+        visit_named(Techniques{}, strategy.technique, [&]<class Technique>() {
+            if constexpr (Technique::chooses_light) found = sample_by<Heuristic, Technique>;
         });
     });
     return found;
@@ -142,9 +140,8 @@ std::unique_ptr<mis_lights> bound(const Strategy& strategy, Lights lights)
     std::unique_ptr<mis_lights> made;
     Sampler* sampler = sampler_of(strategy);
     if (sampler == nullptr) return made;
-    for_each_type(Policies{}, [&]<class Policy>() {
-        if (Policy::name == strategy.policy)
-            made = std::make_unique<BoundLights<Policy>>(strategy, sampler, std::move(lights));
+    visit_named(Policies{}, strategy.policy, [&]<class Policy>() {
+        made = std::make_unique<BoundLights<Policy>>(strategy, sampler, std::move(lights));
     });
     return made;
 }

@@ -4,11 +4,15 @@
 #include "mis/bind/python/work.h"
 #include "mis/io/report_json.h"
 #include "mis/io/scene_json.h"
+#include "mis/run/watched.h"
 #include "mis/strategy/names.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+
+#include <atomic>
+#include <optional>
 
 namespace py = pybind11;
 using namespace py::literals;  // NOLINT: "name"_a
@@ -17,25 +21,28 @@ namespace mis::python {
 
 namespace {
 
-/// Runs `work` while other Python threads run.
-auto without_gil(const auto& work)
+/// Throws what a signal's Python handler raises.
+void raise_signals()
 {
-    const py::gil_scoped_release released;
-    return work();
+    const py::gil_scoped_acquire acquired;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
-/// Lets Ctrl-C end a run.
-Run run_of(std::uint64_t seed, int threads)
+/// What work(stop) gives, while other Python threads run. Ctrl-C sets `stop`
+/// and is raised.
+auto interruptible(const auto& work)
 {
-    return {seed, threads, [] {
-                const py::gil_scoped_acquire acquired;
-                if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            }};
+    std::atomic<bool> stop{false};
+    std::optional<decltype(work(stop))> result;
+    const py::gil_scoped_release released;
+    watched([&] { result.emplace(work(stop)); }, raise_signals, stop);
+    return std::move(*result);
 }
 
 using Resolution = std::optional<std::array<int, 2>>;
 
-std::shared_ptr<const ReadyScene> made_ready(Scene scene, const Resolution& resolution)
+std::shared_ptr<const ReadyScene> made_ready(Scene scene, const Resolution& resolution,
+                                             const StopToken& stop)
 {
     if (resolution) {
         if (!scene.camera)
@@ -48,20 +55,26 @@ std::shared_ptr<const ReadyScene> made_ready(Scene scene, const Resolution& reso
                                     std::to_string(limits::resolution));
         scene.camera->resolution = *resolution;
     }
-    return std::make_shared<const ReadyScene>(std::move(scene));
+    return std::make_shared<const ReadyScene>(std::move(scene), stop);
 }
 
 std::shared_ptr<const ReadyScene> scene_of_file(const std::filesystem::path& file,
                                                 const Resolution& resolution)
 {
-    return without_gil([&] { return made_ready(read_scene(file), resolution); });
+    return interruptible([&](const std::atomic<bool>& flag) {
+        const StopToken stop(&flag);
+        return made_ready(read_scene(file, stop), resolution, stop);
+    });
 }
 
 std::shared_ptr<const ReadyScene> scene_of_dict(const py::dict& dict, const Resolution& resolution,
                                                 const std::filesystem::path& folder)
 {
     const auto text = py::module_::import("json").attr("dumps")(dict).cast<std::string>();
-    return without_gil([&] { return made_ready(parse_scene(text, folder / "scene"), resolution); });
+    return interruptible([&](const std::atomic<bool>& flag) {
+        const StopToken stop(&flag);
+        return made_ready(parse_scene(text, folder / "scene", stop), resolution, stop);
+    });
 }
 
 py::array light_radiance(const ReadyScene& ready)
@@ -149,8 +162,9 @@ void bind_render(py::module_& m)
         "render",
         [](const ReadyScene& scene, const std::string& strategy, std::int64_t spp,
            std::uint64_t seed, const std::string& sampler, int threads) {
-            Picture picture = without_gil(
-                [&] { return render(scene, strategy, spp, sampler, run_of(seed, threads)); });
+            Picture picture = interruptible([&](const std::atomic<bool>& stop) {
+                return render(scene, strategy, spp, sampler, {seed, threads, &stop});
+            });
             const py::ssize_t height = picture.image.height, width = picture.image.width;
             return PictureArrays{
                 array_of<float>(std::move(picture.image.pixels), {height, width, py::ssize_t{3}}),
@@ -174,9 +188,9 @@ void bind_figures(py::module_& m)
             if (probe && pixel)
                 throw ArgumentError("probe and pixel: found both; name one of them");
             const Place place = pixel ? Place(*pixel) : Place(probe.value_or(0));
-            auto values = without_gil([&] {
+            auto values = interruptible([&](const std::atomic<bool>& stop) {
                 return samples(scene, strategy, place, count, first, sampler,
-                               run_of(seed, threads));
+                               {seed, threads, &stop});
             });
             return array_of<double>(std::move(values), {static_cast<py::ssize_t>(count)});
         },
@@ -196,8 +210,8 @@ All are 0 where no light can be seen. Raises StrategyError and ValueError.)");
            std::optional<double> error, double at, std::uint64_t seed, const std::string& sampler,
            int threads) {
             const CompareOptions options{spp, seconds, error, at, sampler};
-            const std::string text = without_gil([&] {
-                Report report = compare(scene, strategies, options, run_of(seed, threads));
+            const std::string text = interruptible([&](const std::atomic<bool>& stop) {
+                Report report = compare(scene, strategies, options, {seed, threads, &stop});
                 report.command = "mis.compare";
                 return report_json(report);
             });
@@ -216,8 +230,9 @@ Raises StrategyError and ValueError.)");
     m.def(
         "predict",
         [](const ReadyScene& scene, const std::vector<std::string>& strategies, int threads) {
-            const auto all =
-                without_gil([&] { return predict(scene, strategies, run_of(0, threads)); });
+            const auto all = interruptible([&](const std::atomic<bool>& stop) {
+                return predict(scene, strategies, {0, threads, &stop});
+            });
             const auto named = [&](double Predicted::*member) {
                 std::vector<double> column;
                 for (const Predicted& one : all) column.push_back(one.*member);

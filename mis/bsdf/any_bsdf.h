@@ -3,10 +3,9 @@
 #include "mis/bsdf/registry.h"
 #include "mis/math/type_list.h"
 #include "mis/scene/material.h"
-#include "mis/scene/raise.h"
+#include "mis/scene/named.h"
 
 #include <memory>
-#include <stdexcept>
 #include <string_view>
 #include <type_traits>
 
@@ -47,8 +46,7 @@ inline bool is_diffuse(const AnyBsdf& bsdf)
 inline int bsdf_number(std::string_view name)
 {
     int found = -1;
-    for_each_type(Bsdfs{}, [&]<class B>() {
-        if (B::name != name) return;
+    visit_named(Bsdfs{}, name, [&]<class B>() {
         int number = 0;
         for_each_type(BsdfFormulas{}, [&]<class F>() {
             if (std::is_same_v<F, FormulaOf<B>>) found = number;
@@ -69,12 +67,10 @@ template <class B> AnyBsdf any_bsdf(const B& bsdf)
 /// registry.
 inline std::shared_ptr<const void> make_bsdf(const Material& material)
 {
-    std::shared_ptr<const void> bsdf;
-    for_each_type(Bsdfs{}, [&]<class B>() {
-        if (B::name == material.type) bsdf = std::make_shared<const FormulaOf<B>>(B(material));
-    });
-    if (!bsdf) raise<std::out_of_range>("no BSDF is called " + material.type);
-    return bsdf;
+    return require_named(Bsdfs{}, "BSDF", material.type,
+                         [&]<class B>() -> std::shared_ptr<const void> {
+                             return std::make_shared<const FormulaOf<B>>(B(material));
+                         });
 }
 
 }  // namespace mis

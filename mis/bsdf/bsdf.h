@@ -29,7 +29,8 @@ struct LobeExtent {
 /// wi with wi.z ≤ 0 is a lost draw, which contributes 0 and is not redrawn, so ∫pdf over the
 /// hemisphere + P(lost) = 1. draws(): false where all is black. has_lobe: false where no material
 /// has one, whatever it says. is_diffuse(): this one has none; a type that has a lobe and can lack
-/// it has evaluate_diffuse(wi), which then is evaluate(wo, wi) to the last bit.
+/// it has evaluate_diffuse(wi), which then is evaluate(wo, wi) to the last bit. One that has a lobe
+/// has lobe_share(): how many of its draws are the lobe's, those with `lobe` below that.
 // clang-format off
 template <class B, class T>
 concept Bsdf = std::constructible_from<B, const Material&> &&
@@ -120,6 +121,7 @@ struct HalfVectorBsdf {
                 select(is_specular, specular_wi.z, diffuse_wi.z)};
     }
     bool draws() const { return luminance(diffuse) > 0 || luminance(specular) > 0; }
+    double lobe_share() const { return s; }
     MIS_INLINE LobeExtent lobe() const
     {
         const double strength = luminance(specular);

@@ -2,6 +2,7 @@
 
 #include "mis/bsdf/bsdf.h"
 #include "mis/math/frame.h"
+#include "mis/sampling/horizon.h"
 
 namespace mis {
 
@@ -21,7 +22,8 @@ public:
     /// From numbers in [0, 1); below the horizon it is a lost draw.
     Vec3<T> sample(const T& lobe, const Vec2<T>& u) const
     {
-        return frame_.to_world(bsdf_->sample(wo_, lobe, u));
+        const Vec3<T> local = bsdf_->sample(wo_, lobe, u);
+        return kept_above(frame_.to_world(local), frame_.z, local.z);
     }
 
 private:

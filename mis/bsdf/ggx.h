@@ -48,6 +48,7 @@ public:
     }
 
     bool draws() const { return true; }  // at grazing angles F is 1, whatever f0
+    double lobe_share() const { return s_; }
     bool is_diffuse() const { return false; }
     MIS_INLINE LobeExtent lobe() const
     {

@@ -1,10 +1,12 @@
 #include "mis/changes/changes.h"
 #include "mis/cli/commands.h"
+#include "mis/cli/interrupt.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/changes_json.h"
 #include "mis/io/changes_text.h"
 #include "mis/io/report_peek.h"
 #include "mis/io/report_read.h"
+#include "mis/io/text_file.h"
 #include "mis/words/changes_remarks.h"
 #include "mis/words/numbers.h"
 
@@ -21,11 +23,13 @@ void check_changes(const CompareOptions& options)
 {
     const std::vector<std::string>& files = options.scenes;
     const auto scene = std::find_if_not(files.begin(), files.end(), is_report_file);
-    if (scene != files.end())
+    if (scene != files.end()) {
+        require_utf8(read_text_file(*scene, "report"), *scene);  // else that is what is wrong
         throw UsageError(fmt::format(
             "{}: found a report among scenes; give scenes alone, or two reports alone\n    {} is "
             "none.",
             *std::find_if(files.begin(), files.end(), is_report_file), *scene));
+    }
     if (files.size() != 2)
         throw UsageError(fmt::format(
             "{}: found {}; two are compared, the older and the newer", files[0],
@@ -49,7 +53,8 @@ int run_changes(const CompareOptions& options)
     check_changes(options);
     ChangesOptions how;
     if (options.fail_on_regression) how.worse_by = *options.fail_on_regression / 100;
-    const Report before = read_report(options.scenes[0]), after = read_report(options.scenes[1]);
+    const Report before = read_report(options.scenes[0], interrupt_token()),
+                 after = read_report(options.scenes[1], interrupt_token());
     Changes changes = changes_between(before, after, how);
     add_remarks(changes, before, after);
     if (options.fail_on_regression && changes.comparisons == 0 && !changes.has_regression())

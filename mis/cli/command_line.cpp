@@ -64,8 +64,8 @@ std::function<std::string(const std::string&)> refuse_empty(const std::string& a
     };
 }
 
-/// --threads, --seed, --quiet, --resolution, --effects, --sampler.
-void add_run_options(CLI::App& command, RunOptions& options)
+/// --threads, --seed, --quiet, --resolution, --effects; --sampler where samples are drawn.
+void add_run_options(CLI::App& command, RunOptions& options, bool draws_samples = true)
 {
     command.add_option("--threads", options.threads,
                        "threads to run on (0: as many as the machine has)");
@@ -80,21 +80,27 @@ void add_run_options(CLI::App& command, RunOptions& options)
                     "auto: only what the scene and each tile of it call for; all: everything; "
                     "NAME=off: auto, and refused where the scene calls for that effect")
         ->capture_default_str();
-    command
-        .add_option(
-            "--sampler", options.sampler,
-            "independent: random numbers; sobol: scrambled sequences, whose samples spread evenly")
-        ->capture_default_str();
+    if (draws_samples)
+        command
+            .add_option("--sampler", options.sampler,
+                        "independent: random numbers; sobol: scrambled sequences, whose samples "
+                        "spread evenly")
+            ->capture_default_str();
     command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
 }
 
-void add_output_options(CLI::App& command, OutputOptions& options)
+void add_json_option(CLI::App& command, OutputOptions& options)
 {
     command
         .add_option("--json", options.json,
                     "write the figures as JSON to FILE, or - for standard output")
         ->check(refuse_empty("a file, or - for standard output,"))
         ->type_name("FILE");
+}
+
+void add_output_options(CLI::App& command, OutputOptions& options)
+{
+    add_json_option(command, options);
     command
         .add_option("--csv", options.csv,
                     "write the figures as CSV to FILE, or - for standard output")
@@ -107,7 +113,10 @@ void add_stop_options(CLI::App& command, StopOptions& options, const std::string
     command.add_option("--spp", options.spp, "samples per shading point")
         ->check(samples_fault)
         ->type_name("N");
-    command.add_option("--time", options.seconds, "seconds of wall time")->type_name("S");
+    command
+        .add_option("--time", options.seconds,
+                    "seconds of wall time, after reading and building trees")
+        ->type_name("S");
     command.add_option("--error", options.error, error)->type_name("E");
 }
 
@@ -190,13 +199,15 @@ void add_cost(CLI::App& app, CostCommandOptions& options)
     c.add_option("--spp", options.stop.spp, "samples per shading point of the last doubling")
         ->check(samples_fault)
         ->type_name("N");
-    c.add_option("--time", options.stop.seconds, "seconds of wall time (30)")->type_name("S");
+    c.add_option("--time", options.stop.seconds,
+                 "seconds of wall time, after reading and building trees (30)")
+        ->type_name("S");
     add_run_options(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
         return "Without a list: every classic policy with the power heuristic, and brdf; the "
-               "soonest to 1 "
-               "% of them also in\ndouble, and with four light draws per BSDF draw.\n\nExamples:\n"
+               "soonest to 1 % of them also in\ndouble, and with four light draws per BSDF "
+               "draw.\n\nExamples:\n"
                "  mis cost scenes/veach.json\n"
                "  mis cost scenes/street.json --strategy power/power,power/power@4+1 --time 60\n"
                "  mis cost scenes/single.json --strategy brdf --precision float,double --csv -\n" +
@@ -228,9 +239,10 @@ void add_explain(CLI::App& app, ExplainOptions& options)
     CLI::App& c =
         *app.add_subcommand("explain", "what a scene is made of, and which effects it calls for");
     c.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
-    add_run_options(c, options.run);
-    add_output_options(c, options.output);
-    c.footer("Example:\n  mis explain scenes/street.json");
+    add_run_options(c, options.run, false);
+    add_json_option(c, options.output);
+    c.footer(
+        "Examples:\n  mis explain scenes/street.json\n  mis explain scenes/street.json --json -");
 }
 
 void add_replay(CLI::App& app, ReplayOptions& options)
@@ -320,11 +332,25 @@ void check_command(const CLI::App& app, int argc, char** argv)
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(command->get_name());
     const std::vector<std::string_view> known(names.begin(), names.end());
-    if (std::find(known.begin(), known.end(), argv[1]) != known.end()) return;
-    const std::string_view near = nearest_name(argv[1], known);
-    throw UsageError(
-        fmt::format("found command \"{}\"; known are {}{}", argv[1], comma_list(known),
-                    near.empty() ? "" : fmt::format("\n    Did you mean \"{}\"?", near)));
+    if (std::find(known.begin(), known.end(), argv[1]) == known.end())
+        refuse_name("found command", argv[1], known);
+}
+
+/// Throws UsageError where a word looks like an option, and the command has none of that name.
+void check_options_known(const CLI::App& command, int argc, char** argv)
+{
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    for (int i = 2; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--") return;
+        const std::string name = word.substr(0, word.find('='));
+        if (!word.starts_with("--") || std::find(known.begin(), known.end(), name) != known.end())
+            continue;
+        refuse_name(command.get_name() + ": found option", name, known);
+    }
 }
 
 }  // namespace
@@ -352,6 +378,8 @@ int run_command_line(int argc, char** argv)
     ReplayOptions replay;
     add_replay(app, replay);
     check_command(app, argc, argv);
+    if (argc > 1 && argv[1][0] != '-')
+        check_options_known(*app.get_subcommand(argv[1]), argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

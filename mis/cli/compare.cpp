@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -98,12 +99,69 @@ void check_options(const CompareOptions& options)
     check(options.output);
 }
 
+/// What was left out, each reason once in a run.
+using Reasons = std::set<std::string>;
+void tell_left_out(const StrategySelection& selection, Reasons& told)
+{
+    for (const std::string& reason : selection.left_out)
+        if (told.insert(reason).second) remark("left out: {}\n", reason);
+}
+
 void write_outputs(const CompareOptions& options, const Report& report,
                    std::span<const std::optional<Maps>> maps)
 {
     if (!options.output.json.empty()) write_report_json(report, options.output.json);
     if (!options.output.csv.empty()) write_report_csv(report, options.output.csv);
     if (!options.out.empty()) write_report_folder(report, maps, options.out, options.force);
+}
+
+std::string no_time_message(const std::string& file, const CompareOptions& options)
+{
+    return fmt::format(
+        "--time: found {}; in so many seconds not even the shading points of {} were found\n    "
+        "Give more time, or a lower --resolution.",
+        options.stop.seconds.value_or(StudyOptions().default_seconds), file);
+}
+
+bool has_samples(const SceneReport& scene)
+{
+    return std::any_of(scene.strategies.begin(), scene.strategies.end(),
+                       [](const StrategyReport& s) { return s.samples > 0; });
+}
+
+/// Compares the strategies on a scene, and shows what was found. Throws Stopped
+/// where it was stopped before the first sample.
+void add_scene(const std::string& file, const CompareOptions& options,
+               const StrategyRequest& request, Progress& progress, Reasons& told, Report& report,
+               std::vector<std::optional<Maps>>& maps)
+{
+    const ReadyScene ready(file, options.run);
+    const StrategySelection selection = select_strategies(request, traits_of(ready.scene));
+    const std::vector<Strategy>& strategies = selection.strategies;
+    if (!options.run.quiet) tell_left_out(selection, told);
+    check_memory(ready.scene, strategies.size(), !options.out.empty());
+    report.threads = ready.executor.threads;
+    if (options.stop.spp)
+        ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
+                                 static_cast<double>(strategies.size()));
+    Study study = run_study(ready.lit, strategies, study_options(options, ready.scene, progress),
+                            ready.executor);
+    progress.clear();
+    if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
+    const std::size_t turned = study.points->shading.counts.turned_normals;
+    if (turned > 0 && !options.run.quiet) remark("{}", turned_normals_message(turned));
+    if (study.report.partial && !has_samples(study.report)) throw Stopped();
+    study.report.setup = ready.setup;
+    report.scenes.push_back(study.report);
+    if (!options.out.empty())
+        maps.push_back(ready.scene.camera
+                           ? std::optional(maps_of(ready.lit, study, options.at, ready.executor))
+                           : std::nullopt);
+    report.partial = report.partial || study.report.partial;
+    if (options.output.json == "-" || options.output.csv == "-") return;
+    fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
+               scene_text(report.scenes.back(), report));
+    std::fflush(stdout);
 }
 
 }  // namespace
@@ -117,45 +175,29 @@ int run_compare(const CompareOptions& options)
             "--fail-on-regression: found scenes; it takes two reports, as --json wrote them: mis "
             "compare OLD.json NEW.json");
     check_options(options);
-    const StrategySelection selection =
-        select_strategies({options.policies, options.heuristics, options.techniques, options.models,
-                           options.strategies});
+    const StrategyRequest request =
+        read_lists({options.policies, options.heuristics, options.techniques, options.models,
+                    options.strategies});
     if (!options.out.empty()) check_report_folder(options.out, options.force);
     Report report{run_head(options.run)};
     report.at = options.at;
-    if (!options.run.quiet)
-        for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
-
+    Reasons told;
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
     std::vector<std::optional<Maps>> maps;
-    watch_for_interrupt();
     Progress progress(!options.run.quiet);
     if (options.scenes.size() > 1)  // a wrong one is found before the first is measured
-        for (const std::string& file : options.scenes)
-            check_memory(read_scene_for(file, options.run), selection.strategies.size(),
+        for (const std::string& file : options.scenes) {
+            const Scene scene = read_scene_for(file, options.run);
+            check_memory(scene, select_strategies(request, traits_of(scene)).strategies.size(),
                          !options.out.empty());
+        }
     for (const std::string& file : options.scenes) {
-        const ReadyScene ready(file, options.run);
-        check_memory(ready.scene, selection.strategies.size(), !options.out.empty());
-        report.threads = ready.executor.threads;
-        if (options.stop.spp)
-            ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
-                                     static_cast<double>(selection.strategies.size()));
-        const Study study =
-            run_study(ready.lit, selection.strategies,
-                      study_options(options, ready.scene, progress), ready.executor);
-        progress.clear();
-        if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
-        report.scenes.push_back(study.report);
-        if (!options.out.empty())
-            maps.push_back(ready.scene.camera ? std::optional(maps_of(ready.lit, study, options.at,
-                                                                      ready.executor))
-                                              : std::nullopt);
-        report.partial = report.partial || study.report.partial;
-        if (shows_table) {
-            fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
-                       scene_text(report.scenes.back(), report));
-            std::fflush(stdout);
+        try {
+            add_scene(file, options, request, progress, told, report, maps);
+        } catch (const Stopped&) {
+            if (!interrupt_flag()) throw UsageError(no_time_message(file, options));
+            if (report.scenes.empty()) throw;
+            report.partial = true;
         }
         if (interrupt_flag()) break;
     }

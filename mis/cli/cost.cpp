@@ -40,12 +40,16 @@ StrategyLists lists_of(const CostCommandOptions& options)
     return lists;
 }
 
+std::vector<std::string> precisions_of(const CostCommandOptions& options)
+{
+    return names_listed("--precision", options.precisions, "float", {"float", "double"});
+}
+
 std::vector<CostChoice> choices_of(const StrategySelection& selection,
-                                   const std::optional<std::string>& precisions)
+                                   const std::vector<std::string>& precisions)
 {
     std::vector<CostChoice> choices;
-    for (const std::string& name :
-         names_listed("--precision", precisions, "float", {"float", "double"}))
+    for (const std::string& name : precisions)
         for (const Strategy& strategy : selection.strategies) {
             const CostChoice choice{strategy,
                                     name == "double" ? Precision::in_double : Precision::in_float};
@@ -75,22 +79,27 @@ CostOptions study_options(const CostCommandOptions& options, Progress& progress)
 int run_cost(const CostCommandOptions& options)
 {
     check_options(options);
-    const StrategySelection selection = select_strategies(lists_of(options));
-    const std::vector<CostChoice> choices = choices_of(selection, options.precisions);
+    const StrategyRequest request = read_lists(lists_of(options));
+    const std::vector<std::string> precisions = precisions_of(options);
     const ReadyScene ready(options.scene, options.run);
+    const StrategySelection selection = select_strategies(request, traits_of(ready.scene));
+    const std::vector<CostChoice> choices = choices_of(selection, precisions);
     check_memory(ready.scene, strategies_of_reference);
     if (!options.run.quiet)
         for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
-    watch_for_interrupt();
     Progress progress(!options.run.quiet);
     CostReport report{run_head(options.run), {}};
     report.threads = ready.executor.threads;
     report.scenes.push_back(
         run_cost_study(ready.lit, choices, study_options(options, progress), ready.executor));
     progress.clear();
+    report.scenes.front().setup = ready.setup;
     const CostSceneReport& found = report.scenes.front();
     if (found.shading_points == 0) throw UsageError(no_points_message(ready.scene));
     report.partial = found.partial;
+    if (found.partial && std::all_of(found.curves.begin(), found.curves.end(),
+                                     [](const auto& curve) { return curve.points.empty(); }))
+        throw Stopped();
     if (options.output.json != "-" && options.output.csv != "-")
         write_text("-", cost_text(found, report.threads));
     if (!options.output.json.empty()) write_text(options.output.json, cost_json(report));

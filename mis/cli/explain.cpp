@@ -8,11 +8,10 @@ namespace mis::cli {
 
 int run_explain(const ExplainOptions& options)
 {
-    if (!options.output.csv.empty())
-        throw UsageError("--csv: explain has no table of figures; it has --json");
     check(options.output);
     const ReadyScene ready(options.scene, options.run);
-    const Explanation explanation = explain(ready.lit, ready.executor);
+    const Explanation explanation =
+        explain(ready.lit, ready.stoppable_executor(), interrupt_token());
     if (options.output.json != "-") fmt::print("{}", explanation_text(explanation));
     if (!options.output.json.empty())
         write_explanation_json(explanation,

@@ -61,9 +61,7 @@ double exponent_of(const IntegrateOptions& options)
 std::vector<Entry> entries_of(const IntegrateOptions& options)
 {
     if (std::find(pdf_names.begin(), pdf_names.end(), options.pdf) == pdf_names.end())
-        throw UsageError(fmt::format("--pdf: found \"{}\"; known are {}\n    {}", options.pdf,
-                                     comma_list(pdf_names),
-                                     did_you_mean(options.pdf, pdf_names, "Give one of them.")));
+        refuse_name("--pdf: found", options.pdf, pdf_names);
     const double exponent = exponent_of(options);
     std::vector<Entry> entries;
     for (const HemisphereDensity density : hemisphere_densities) {
@@ -246,7 +244,6 @@ int run_integrate(const IntegrateOptions& options)
                           .samples = samples_of(options),
                           .densities = entries_of(options)};
     check(options.output);
-    watch_for_interrupt();
     const Console console(options.output);
     console.print(fmt::format("∫ cos θ dω over the hemisphere = π = {:.6f}, seed {}\n",
                               hemisphere_integral, options.seed));

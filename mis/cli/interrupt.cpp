@@ -20,8 +20,13 @@ const std::atomic<bool>& interrupt_flag() { return flag; }
 
 void watch_for_interrupt()
 {
-    std::signal(SIGINT, on_signal);
-    std::signal(SIGTERM, on_signal);
+    struct sigaction action {};
+    action.sa_handler = on_signal;  // without SA_RESTART: it ends the wait for a pipe
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
 }
+
+StopToken interrupt_token() { return StopToken(&flag); }
 
 }  // namespace mis::cli

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
+
 #include <atomic>
 
 namespace mis::cli {
@@ -8,5 +10,8 @@ namespace mis::cli {
 /// program at once.
 const std::atomic<bool>& interrupt_flag();
 void watch_for_interrupt();
+
+/// Up from then on.
+StopToken interrupt_token();
 
 }  // namespace mis::cli

@@ -1,7 +1,9 @@
 #include "mis/cli/command_line.h"
+#include "mis/cli/interrupt.h"
 #include "mis/cli/options.h"
 #include "mis/cli/remark.h"
 #include "mis/io/scene_error.h"
+#include "mis/math/stop_token.h"
 #include "mis/strategy/strategy.h"
 
 #include <fmt/format.h>
@@ -36,6 +38,7 @@ int with_all_output_written(int code)
 
 int main(int argc, char** argv)
 {
+    watch_for_interrupt();
     try {
         return with_all_output_written(run_command_line(argc, argv));
     } catch (const UsageError& error) {
@@ -44,6 +47,8 @@ int main(int argc, char** argv)
         return complain(error.what(), usage);
     } catch (const mis::SceneError& error) {
         return complain(error.what(), usage);
+    } catch (const mis::Stopped&) {
+        return complain("interrupted before there was a result; nothing was written", interrupted);
     } catch (const std::bad_alloc&) {
         return complain("out of memory", failed);
     } catch (const std::exception& error) {

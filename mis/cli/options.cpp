@@ -1,13 +1,18 @@
 #include "mis/cli/options.h"
 
+#include "mis/cli/interrupt.h"
 #include "mis/effects/effects.h"
 #include "mis/io/scene_json.h"
+#include "mis/io/text_file.h"
 #include "mis/run/tbb.h"
+#include "mis/scene/nearest_name.h"
 #include "mis/scene/validate.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -98,19 +103,51 @@ std::string effect_off(const RunOptions& options)
     return "";
 }
 
+void refuse_name(const std::string& what, const std::string& found,
+                 std::span<const std::string_view> known, const std::string& kinds,
+                 const std::string& meant)
+{
+    const std::string_view near = nearest_name(meant.empty() ? found : meant, known);
+    throw UsageError(fmt::format(
+        "{} {}; known are {}{}", what, in_quotes(found), kinds.empty() ? comma_list(known) : kinds,
+        near.empty() ? "" : fmt::format("\n    Did you mean \"{}\"?", near)));
+}
+
+void check_sampler(const RunOptions& options)
+{
+    constexpr std::array<std::string_view, 2> known{"independent", "sobol"};
+    if (std::find(known.begin(), known.end(), options.sampler) == known.end())
+        refuse_name("--sampler: found", options.sampler, known);
+}
+
+namespace {
+
+/// Throws UsageError unless --effects is known.
+void check_effects(const RunOptions& options)
+{
+    if (options.effects == "auto" || options.effects == "all" || !effect_off(options).empty())
+        return;
+    std::vector<std::string> off;
+    for (const char* name : effect_names) off.push_back(name + std::string("=off"));
+    std::vector<std::string_view> known{"auto", "all"};
+    known.insert(known.end(), off.begin(), off.end());
+    const std::string kinds =
+        fmt::format("auto, all, and NAME=off with a name of {}", fmt::join(effect_names, ", "));
+    const bool is_near = !nearest_name(options.effects, known).empty();
+    refuse_name("--effects: found", options.effects, known, kinds,
+                is_near ? options.effects : options.effects + "=off");
+}
+
+}  // namespace
+
 Scene read_scene_for(const std::string& file, const RunOptions& options)
 {
-    if (options.effects != "auto" && options.effects != "all" && effect_off(options).empty())
-        throw UsageError("--effects: found \"" + options.effects +
-                         "\"; known are auto, all, and NAME=off with a name of " +
-                         fmt::format("{}", fmt::join(effect_names, ", ")));
-    if (options.sampler != "independent" && options.sampler != "sobol")
-        throw UsageError("--sampler: found \"" + options.sampler +
-                         "\"; known are independent, sobol");
+    check_effects(options);
+    check_sampler(options);
     const std::optional<std::array<int, 2>> resolution =
         options.resolution.empty() ? std::nullopt
                                    : std::optional(parse_resolution(options.resolution));
-    Scene scene = read_scene(file);
+    Scene scene = read_scene(file, interrupt_token());
     if (resolution) {
         if (!scene.camera)
             throw UsageError("--resolution: " + file + " has no camera, so it has no picture");
@@ -124,6 +161,12 @@ std::string no_points_message(const Scene& scene)
     return scene.file +
            ": /camera: found no surface in view; a picture needs one to be lit\n"
            "    Turn the camera, add surfaces, or give probes without a camera.";
+}
+
+std::string turned_normals_message(std::size_t count)
+{
+    return fmt::format("{} shading normals lean away from the viewer, and are turned to him\n",
+                       count);
 }
 
 AnyExecutor make_executor(const RunOptions& options)

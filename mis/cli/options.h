@@ -6,8 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mis::cli {
@@ -63,8 +65,22 @@ Scene read_scene_for(const std::string& file, const RunOptions& options);
 /// What to say where the camera sees no surface.
 std::string no_points_message(const Scene& scene);
 
+/// What to say where shading normals were turned off their surface (PointCounts).
+std::string turned_normals_message(std::size_t count);
+
 /// As many threads as asked for. Throws UsageError.
 AnyExecutor make_executor(const RunOptions& options);
+
+/// Throws UsageError: a word that is none of `known`, with the one that is nearest. what:
+/// "--sampler: found", "found command".
+/// kinds: what is known, in words; left out, the names themselves. meant: what to look for the
+/// nearest to; left out, the word itself.
+[[noreturn]] void refuse_name(const std::string& what, const std::string& found,
+                              std::span<const std::string_view> known,
+                              const std::string& kinds = "", const std::string& meant = "");
+
+/// Throws UsageError unless --sampler is known.
+void check_sampler(const RunOptions& options);
 
 /// "a, b,c" → a b c; empty parts are refused by UsageError.
 std::vector<std::string> split_list(const std::string& list, const std::string& option);

@@ -22,11 +22,13 @@ PredictReport::Probe predicted(const Scene& scene, const Probe& probe,
                                const std::vector<Strategy>& strategies, const AnyExecutor& executor,
                                const PredictTolerance& tolerance)
 {
-    if (interrupt_flag()) return {.figures = {}, .refusal = "interrupted"};
     try {
+        interrupt_token().check();
         return {.figures = predict(scene, probe, strategies, tolerance,
-                                   {.executor = &executor, .stop = &interrupt_flag()}),
+                                   {.executor = &executor, .stop = interrupt_token()}),
                 .refusal = {}};
+    } catch (const Stopped&) {
+        return {.figures = {}, .refusal = "interrupted"};
     } catch (const PredictError& error) {
         return {.figures = {}, .refusal = error.what()};
     }
@@ -58,9 +60,9 @@ PredictReport::Scene predicted_scene(const Scene& scene, const StrategySelection
 
 int run_predict(const PredictOptions& options)
 {
-    const StrategySelection selection =
-        select_strategies({options.policies, options.heuristics, options.techniques, options.models,
-                           options.strategies});
+    const StrategyRequest request =
+        read_lists({options.policies, options.heuristics, options.techniques, options.models,
+                    options.strategies});
     check(options.output);
     RunOptions run;
     run.threads = options.threads;
@@ -70,15 +72,18 @@ int run_predict(const PredictOptions& options)
         throw UsageError(options.scene +
                          ": found no probes; predict answers at probes alone\n"
                          "    Add \"probes\" to the scene (docs/scene-format.md).");
+    const StrategySelection selection = select_strategies(request, traits_of(scene));
     if (!options.quiet)
         for (const std::string& reason : selection.left_out) remark("left out: {}\n", reason);
-    watch_for_interrupt();
     PredictReport report{
         .version = MIS_VERSION, .command = options.command_line, .threads = executor.threads};
     report.scenes.push_back(
         predicted_scene(scene, selection, executor, report.tolerance, options.quiet));
     report.partial = interrupt_flag();
     const PredictReport::Scene& found = report.scenes.front();
+    if (report.partial &&
+        std::ranges::all_of(found.probes, [](const auto& probe) { return probe.figures.empty(); }))
+        throw Stopped();
     if (options.output.json != "-" && options.output.csv != "-")
         write_text("-", fmt::format("{}: {} probes, {} lights\n\n{}",
                                     printable(found.name.empty() ? found.file : found.name),

@@ -69,6 +69,7 @@ struct Outcome {
     Image image;
     std::uint64_t samples = 0, invalid = 0;  ///< samples: per shading point
     std::size_t shading_points = 0;
+    std::size_t turned_normals = 0;
     std::optional<PictureError> error;  ///< not of a picture in several bands
     bool is_partial = false;
     std::optional<int> unlit_from;  ///< first row without samples, where interrupted before them
@@ -91,6 +92,18 @@ int rows_of_band(const Camera& camera)
     return std::clamp(band_pixels / width / tile_side * tile_side, tile_side, height + tile_side);
 }
 
+/// Some rows' points; nothing where that is interrupted and rows before them are lit. Throws
+/// Stopped where none are.
+std::optional<Band> next_band(const ReadyScene& ready, int row, int rows)
+{
+    try {
+        return find_band(ready.lit, row, rows, ready.stoppable_executor());
+    } catch (const Stopped&) {
+        if (row == 0) throw;
+        return std::nullopt;
+    }
+}
+
 /// The closed form at every point; refused where some have none.
 Outcome render_exactly(const ReadyScene& ready, Progress& progress)
 {
@@ -99,12 +112,18 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     const int height = outcome.image.height, band_rows = rows_of_band(*ready.scene.camera);
     ExactShare share;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
-        Band band = find_band(ready.lit, row, std::min(band_rows, height - row), ready.executor);
+        std::optional<Band> next = next_band(ready, row, std::min(band_rows, height - row));
+        if (!next) {
+            outcome.is_partial = true, outcome.unlit_from = row;
+            break;
+        }
+        Band& band = *next;
         const ExactShare here = exact_share(ready.lit, band.shading);
         share.exact += here.exact, share.points += here.points;
         share.exact_tiles += here.exact_tiles, share.tiles += here.tiles;
+        outcome.turned_normals += band.shading.counts.turned_normals;
         if (share.is_all()) {
-            light_exactly(ready.lit, band, ready.executor);
+            light_exactly(ready.lit, band, ready.stoppable_executor());
             draw_band(ready.lit, band, outcome.image);
         }
         progress.show("rendering", (row + double(band.shading.rows)) / height);
@@ -122,6 +141,9 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     return outcome;
 }
 
+/// Has every point a sample?
+bool is_lit_throughout(const Band& band) { return band.results.empty() || least_samples(band) > 0; }
+
 /// A given number of samples.
 Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy, std::uint64_t spp,
                    Progress& progress)
@@ -132,24 +154,33 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
     outcome.samples = spp;
     WorkspacePool<float> workspaces;
     for (int row = 0; row < height && !outcome.is_partial; row += band_rows) {
-        Band band = find_band(ready.lit, row, std::min(band_rows, height - row), ready.executor);
+        std::optional<Band> next = next_band(ready, row, std::min(band_rows, height - row));
+        if (!next) {
+            outcome.is_partial = true, outcome.unlit_from = row;
+            break;
+        }
+        Band& band = *next;
         constexpr std::uint64_t step = 16;
-        std::uint64_t sampled = 0;
         for (std::uint64_t s = 0; s < spp && !outcome.is_partial; s += step) {
             const int count = static_cast<int>(std::min(step, spp - s));
             outcome.invalid +=
-                light_band(strategy, band, s, count, workspaces, ready.executor, &interrupt_flag())
+                light_band(strategy, band, s, count, workspaces, ready.executor, interrupt_token())
                     .invalid;
-            sampled += static_cast<std::uint64_t>(count);
             outcome.is_partial = interrupt_flag();
             progress.show(
                 "rendering",
                 (row + double(band.shading.rows) * double(s + step) / double(spp)) / height);
         }
+        if (outcome.is_partial && !is_lit_throughout(band)) {
+            if (row == 0) throw Stopped();
+            outcome.unlit_from = row;
+            break;
+        }
         outcome.shading_points += band.results.size() + band.shading.dark.size();
+        outcome.turned_normals += band.shading.counts.turned_normals;
         draw_band(ready.lit, band, outcome.image);
         if (band.shading.rows == height) {
-            outcome.samples = sampled;
+            if (!band.results.empty()) outcome.samples = least_samples(band);
             outcome.error = error_of(band);
         } else if (outcome.is_partial) {
             outcome.unlit_from = row + band.shading.rows;
@@ -158,26 +189,49 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
     return outcome;
 }
 
-/// Until a time or an error is reached: all of the picture at once, in doubling rounds. To an error
-/// by Sobol' sequences, all rounds double, so that the samples are a power of two.
-Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strategy,
-                     const StopOptions& stop, bool is_sobol, Progress& progress)
+/// Up once interrupted and, where a time was given, once that is over.
+StopToken until_time(const StopOptions& stop, Clock::time_point start)
 {
-    const auto start = std::chrono::steady_clock::now();
+    if (!stop.seconds) return interrupt_token();
+    return interrupt_token().until(start + std::chrono::duration_cast<Clock::duration>(
+                                               std::chrono::duration<double>(*stop.seconds)));
+}
+
+std::string no_time_message(double seconds, const std::string& file)
+{
+    return fmt::format(
+        "--time: found {}; in so many seconds not every shading point of {} had its first "
+        "sample\n    Give more time, or a lower --resolution.",
+        seconds, file);
+}
+
+/// Until a time or an error is reached: all of the picture at once, in doubling rounds. To an error
+/// by Sobol' sequences, all rounds double, so that the samples are a power of two. start: of the
+/// time.
+Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strategy,
+                     const StopOptions& stop, bool is_sobol, Clock::time_point start,
+                     Progress& progress)
+{
     Outcome outcome;
     outcome.image = black_picture(*ready.scene.camera);
     WorkspacePool<float> workspaces;
-    Band band = find_band(ready.lit, 0, outcome.image.height, ready.executor);
+    const StopToken token = until_time(stop, start);
+    Band band = find_band(ready.lit, 0, outcome.image.height, ready.stoppable_executor());
     outcome.shading_points = band.results.size() + band.shading.dark.size();
-    int count = 4;
+    outcome.turned_normals = band.shading.counts.turned_normals;
+    int count = stop.seconds ? 1 : 4;
     bool is_done = false;
     while (!is_done) {
-        const auto round = std::chrono::steady_clock::now();
-        outcome.invalid += light_band(strategy, band, outcome.samples, count, workspaces,
-                                      ready.executor, &interrupt_flag())
-                               .invalid;
+        const auto round = Clock::now();
+        outcome.invalid +=
+            light_band(strategy, band, outcome.samples, count, workspaces, ready.executor, token)
+                .invalid;
         outcome.samples += static_cast<std::uint64_t>(count);
         outcome.is_partial = interrupt_flag();
+        if (!is_lit_throughout(band)) {
+            if (outcome.is_partial) throw Stopped();
+            throw UsageError(no_time_message(*stop.seconds, ready.scene.file));
+        }
         outcome.error = error_of(band);
         const double seconds_per_sample = seconds_since(round) / count;
         if (stop.seconds) {
@@ -203,6 +257,7 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
         }
         is_done = is_done || outcome.is_partial || band.results.empty();
     }
+    if (!band.results.empty()) outcome.samples = least_samples(band);
     draw_band(ready.lit, band, outcome.image);
     return outcome;
 }
@@ -210,7 +265,8 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
 std::string in_words(const PictureError& error)
 {
     if (error.is_dark())
-        return "relative error of the estimate: unknown, all samples of a point agree";
+        return "relative error of the estimate: unknown, all samples of a point agree, or there is "
+               "but one";
     if (!error.is_resolved())
         return fmt::format(
             "relative error of the estimate: not resolved, {:.0f} samples carry it and "
@@ -232,10 +288,13 @@ Outcome render_by(const Strategy& strategy, const ReadyScene& ready, const Rende
                   Progress& progress)
 {
     const bool is_sobol = options.run.is_sobol();
+    const Clock::time_point start = Clock::now();
     const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(),
-                                        {options.run.seed, is_sobol ? one_scrambling : 0});
+                                        {options.run.seed, is_sobol ? one_scrambling : 0}, {},
+                                        interrupt_token());
     const StopOptions& stop = options.stop;
-    if (stop.seconds || stop.error) return render_until(ready, prepared, stop, is_sobol, progress);
+    if (stop.seconds || stop.error)
+        return render_until(ready, prepared, stop, is_sobol, start, progress);
     const auto spp = static_cast<std::uint64_t>(stop.spp.value_or(64));
     ready.lit.expect_samples(static_cast<double>(spp));
     return render_spp(ready, prepared, spp, progress);
@@ -258,6 +317,7 @@ void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strate
     if (is_sobol && !std::has_single_bit(outcome.samples) && !outcome.is_partial)
         remark("{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
                outcome.samples);
+    if (outcome.turned_normals > 0) remark("{}", turned_normals_message(outcome.turned_normals));
     if (outcome.invalid > 0) remark("{} samples were not finite and count as 0\n", outcome.invalid);
 }
 
@@ -282,22 +342,20 @@ int run_render(const RenderOptions& options)
     const ReadyScene ready(options.scene, options.run);
     if (!ready.scene.camera)
         throw UsageError(options.scene + ": found no camera; a picture needs one");
-    watch_for_interrupt();
     Progress progress(!options.run.quiet);
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     const Outcome outcome =
         strategy ? render_by(*strategy, ready, options, progress) : render_exactly(ready, progress);
     progress.clear();
     if (outcome.shading_points == 0 && !outcome.is_partial)
         throw UsageError(no_points_message(ready.scene));
     write_exr(options.out, outcome.image,
-              {{"Software", std::string("mis ") + MIS_VERSION},
-               {"mis/command", options.run.command_line},
-               {"mis/strategy", strategy ? name_of(*strategy) : "exact"},
-               {"mis/seed", std::to_string(options.run.seed)},
-               {"mis/sampler", options.run.sampler},
-               {"mis/samples_per_point", std::to_string(outcome.samples)},
-               {"mis/partial", outcome.is_partial ? "true" : "false"}});
+              ExrMetadata(MIS_VERSION, options.run.command_line, options.run.seed)
+                  .add("scene", ready.scene.name)
+                  .add("strategy", strategy ? name_of(*strategy) : "exact")
+                  .add("sampler", options.run.sampler)
+                  .add("samples_per_point", std::to_string(outcome.samples))
+                  .add("partial", outcome.is_partial ? "true" : "false"));
     if (!options.run.quiet) print_outcome(outcome, strategy, options, seconds_since(start));
     return outcome.is_partial ? interrupted : ok;
 }

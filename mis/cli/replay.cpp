@@ -81,8 +81,9 @@ template <class T>
 Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Strategy& strategy,
                     const Found& found, bool prints)
 {
-    const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), numbers_of(options));
-    const Replay again = replay(lit, ready, *found.tile, *found.point, options.sample);
+    const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), numbers_of(options), {},
+                                 interrupt_token());
+    const Replay again = replay(lit, ready, *found.tile, *found.point, options.sample, interrupt_token());
     if (prints) print_steps(again);
     return again.value;
 }
@@ -94,7 +95,7 @@ int run_replay(const ReplayOptions& options)
     check_at(options);
     const Strategy strategy = parse_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
-    const StudyPoints points = find_study_points(ready.lit, ready.executor);
+    const StudyPoints points = find_study_points(ready.lit, ready.stoppable_executor());
     const Found found = find_point(points, options.point, options.scene);
     const Vec3<double>& x = found.point->x;
     fmt::print("{}: {}, point {} at {:.6g} {:.6g} {:.6g}, sample {}, seed {}, {}\n", options.scene,

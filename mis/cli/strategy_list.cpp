@@ -1,6 +1,7 @@
 #include "mis/cli/strategy_list.h"
 
 #include "mis/cli/options.h"
+#include "mis/effects/effects.h"
 #include "mis/scene/nearest_name.h"
 #include "mis/strategy/names.h"
 
@@ -9,9 +10,6 @@
 namespace mis::cli {
 
 namespace {
-
-constexpr const char* default_policies = "uniform,power,solid-angle,radiant-solid-angle,all";
-constexpr const char* default_heuristics = "light,balance,power,brdf";
 
 std::vector<std::string> names_of(const std::vector<Choosable>& list)
 {
@@ -37,36 +35,58 @@ std::string policies_beside(const std::vector<std::string>& policies)
     return "the policies that know most of a light; --policy " + others + " ranks them";
 }
 
+/// A light draw by itself has no BSDF draw; whether that has a meaning is not asked.
+Strategy combined(const std::string& model, const std::string& technique, const std::string& policy,
+                  const std::string& heuristic)
+{
+    Strategy s{.policy = policy, .heuristic = heuristic, .technique = technique};
+    if (model == "one-sample") s.model = Model::one_sample;
+    if (heuristic == "light" && s.model == Model::multi) s.counts = {1, 0};
+    return s;
+}
+
+/// The lists of a request, and what stands in place of those that were not given.
+struct Product {
+    std::vector<std::string> policies, heuristics, techniques, models;
+    std::vector<std::string> whole;  ///< strategies that choose no light, by their technique
+};
+
+Product product_of(const StrategyRequest& request, const SceneTraits& scene)
+{
+    const auto ranked = [&](const std::vector<Choosable>& list) {
+        return ranked_by_default(list, scene.lights, scene.has_lobes);
+    };
+    Product product;
+    product.policies = request.policies.value_or(ranked(policy_names()));
+    product.models = request.models;
+    product.techniques = request.techniques.value_or(std::vector{Strategy().technique});
+    if (request.heuristics) {
+        product.heuristics = *request.heuristics;
+        if (std::erase(product.heuristics, "brdf") > 0) product.whole = {"brdf"};
+    } else {
+        product.heuristics = ranked(heuristic_names());
+        for (const std::string& technique : ranked(technique_names()))
+            if (!chooses_light(technique)) product.whole.push_back(technique);
+    }
+    return product;
+}
+
 /// Policies × heuristics × techniques × models; brdf among the heuristics stands for the strategy
 /// of that name.
-void add_product(StrategySelection& selection, const StrategyLists& lists)
+void add_product(StrategySelection& selection, const StrategyRequest& request,
+                 const SceneTraits& scene)
 {
-    std::vector<std::string> heuristics_known = names_of(heuristic_names());
-    heuristics_known.emplace_back("brdf");
-    const auto policies =
-        names_listed("--policy", lists.policies, default_policies, names_of(policy_names()));
-    const auto heuristics =
-        names_listed("--heuristic", lists.heuristics, default_heuristics, heuristics_known);
-    const auto techniques =
-        names_listed("--technique", lists.techniques, "cone", names_of(technique_names()));
-    const auto models = names_listed("--model", lists.models, "multi", {"multi", "one-sample"});
-    for (const std::string& model : models)
-        for (const std::string& technique : techniques)
-            for (const std::string& policy : policies)
-                for (const std::string& heuristic : heuristics) {
-                    if (heuristic == "brdf") continue;
-                    Strategy s{.policy = policy, .heuristic = heuristic, .technique = technique};
-                    if (model == "one-sample") s.model = Model::one_sample;
-                    if (heuristic == "light" && s.model == Model::multi) s.counts = {1, 0};
-                    try {
-                        add(selection, checked(s));
+    const Product product = product_of(request, scene);
+    for (const std::string& model : product.models)
+        for (const std::string& technique : product.techniques)
+            for (const std::string& policy : product.policies)
+                for (const std::string& heuristic : product.heuristics) try {
+                        add(selection, checked(combined(model, technique, policy, heuristic)));
                     } catch (const StrategyError& error) {
                         selection.left_out.emplace_back(error.what());
                     }
-                }
-    if (std::find(heuristics.begin(), heuristics.end(), "brdf") != heuristics.end())
-        add(selection, parse_strategy("brdf"));
-    if (!lists.policies) selection.left_out.push_back(policies_beside(policies));
+    for (const std::string& technique : product.whole) add(selection, parse_strategy(technique));
+    if (!request.policies) selection.left_out.push_back(policies_beside(product.policies));
 }
 
 }  // namespace
@@ -78,22 +98,38 @@ std::vector<std::string> names_listed(const std::string& option,
 {
     const std::vector<std::string> names = split_list(given.value_or(otherwise), option);
     const std::vector<std::string_view> views(known.begin(), known.end());
-    for (const std::string& name : names) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string_view near = nearest_name(name, views);
-        throw UsageError(option + ": found \"" + name + "\"; known are " + comma_list(views) +
-                         (near.empty() ? "" : "\n    Did you mean \"" + std::string(near) + "\"?"));
-    }
+    for (const std::string& name : names)
+        if (std::find(known.begin(), known.end(), name) == known.end())
+            refuse_name(option + ": found", name, views);
     return names;
 }
 
-StrategySelection select_strategies(const StrategyLists& lists)
+StrategyRequest read_lists(const StrategyLists& lists)
 {
-    StrategySelection selection;
-    if (lists.has_product()) add_product(selection, lists);
+    StrategyRequest request{.has_product = lists.has_product()};
+    std::vector<std::string> heuristics = names_of(heuristic_names());
+    heuristics.emplace_back("brdf");
+    const auto read = [](const char* option, const std::optional<std::string>& list,
+                         const std::vector<std::string>& known) {
+        return list ? std::optional(names_listed(option, list, "", known)) : std::nullopt;
+    };
+    request.policies = read("--policy", lists.policies, names_of(policy_names()));
+    request.heuristics = read("--heuristic", lists.heuristics, heuristics);
+    request.techniques = read("--technique", lists.techniques, names_of(technique_names()));
+    request.models = names_listed("--model", lists.models, "multi", {"multi", "one-sample"});
     if (lists.strategies)
         for (const std::string& name : split_list(*lists.strategies, "--strategy"))
-            add(selection, parse_strategy(name));
+            request.named.push_back(parse_strategy(name));
+    return request;
+}
+
+SceneTraits traits_of(const Scene& scene) { return {scene.lights.size(), has_lobes(scene)}; }
+
+StrategySelection select_strategies(const StrategyRequest& request, const SceneTraits& scene)
+{
+    StrategySelection selection;
+    if (request.has_product) add_product(selection, request, scene);
+    for (const Strategy& strategy : request.named) add(selection, strategy);
     if (selection.strategies.empty())
         throw UsageError("no strategy is left:\n    " + selection.left_out.front());
     return selection;

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "mis/scene/scene.h"
 #include "mis/strategy/strategy.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +21,24 @@ struct StrategyLists {
     }
 };
 
+/// The same, read: names that are known, and strategies that have a meaning.
+struct StrategyRequest {
+    std::optional<std::vector<std::string>> policies, heuristics, techniques;
+    std::vector<std::string> models;
+    std::vector<Strategy> named;  ///< by --strategy
+    bool has_product = true;
+};
+
+/// Throws StrategyError and UsageError for unknown names.
+StrategyRequest read_lists(const StrategyLists& lists);
+
+/// What of a scene says which strategies are ranked by default.
+struct SceneTraits {
+    std::size_t lights = 0;
+    bool has_lobes = false;  ///< of a BSDF, beside its diffuse part
+};
+SceneTraits traits_of(const Scene& scene);
+
 /// The names of a list option, or `otherwise`, each of them known. Throws UsageError.
 std::vector<std::string> names_listed(const std::string& option,
                                       const std::optional<std::string>& given,
@@ -32,9 +52,9 @@ struct StrategySelection {
     std::vector<std::string> left_out;  ///< the reason for each, by name
 };
 
-/// Every combination of the lists that has a meaning, and the strategies named. Nothing said: the
-/// classic policies × light, balance, power, and brdf. Throws StrategyError and UsageError for
-/// unknown names, or where nothing is left.
-StrategySelection select_strategies(const StrategyLists& lists);
+/// Every combination of the lists that has a meaning, and the strategies named. In place of a list
+/// that was not given stand the names that are ranked by default on such a scene
+/// (strategy/names.h). Throws UsageError where nothing is left.
+StrategySelection select_strategies(const StrategyRequest& request, const SceneTraits& scene);
 
 }  // namespace mis::cli

@@ -9,6 +9,7 @@
 #include "mis/study/schedule.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -25,9 +26,9 @@ public:
     CostStudy(const LitScene& scene, std::span<const CostChoice> choices,
               const CostOptions& options, const AnyExecutor& executor)
         : options_(options), goal_{options.spp, options.is_sobol},
-          points_(find_study_points(scene, executor)),
+          points_(find_study_points(scene, stoppable(executor, interrupted_))),
           judged_(cost_points(points_, scene.scene().camera.has_value())),
-          ground_{scene, points_, workspaces_, executor, options.seed, options.stop},
+          ground_{scene, points_, workspaces_, executor, options.seed, until_late()},
           curve_ground_{ground_, judged_, reference_, options.is_sobol},
           curves_(choices.begin(), choices.end())
     {
@@ -35,19 +36,35 @@ public:
 
     CostSceneReport run()
     {
-        if (points_.figure_lit > 0) {
-            show(0, "finding the reference");
-            find_reference();
-            leave_out_unaffordable();
-            for (std::uint64_t samples = 1; !is_finished(); samples *= 2) {
-                if (options_.adds_twins && level_ == levels_before_twins) add_twins();
-                run_level(samples);
-            }
+        try {
+            if (points_.figure_lit > 0) run_levels();
+        } catch (const Stopped&) {  // what is complete counts
+            if (!interrupted_.is_up()) end_all();
         }
         return report();
     }
 
 private:
+    void run_levels()
+    {
+        show(0, "finding the reference");
+        find_reference();
+        leave_out_unaffordable();
+        for (std::uint64_t samples = 1; !is_finished(); samples *= 2) {
+            if (options_.adds_twins && level_ == levels_before_twins) add_twins();
+            run_level(samples);
+        }
+    }
+
+    /// Up when the study is stopped, and where it is late.
+    StopToken until_late() const
+    {
+        if (options_.spp) return interrupted_;
+        return interrupted_.until(start_ +
+                                  std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(1.1 * options_.seconds)));
+    }
+
     void show(double done, const std::string& doing) const
     {
         if (options_.progress) options_.progress(done, doing);
@@ -87,7 +104,13 @@ private:
             estimate_costs(ground_, strategies, replicate_count * first_levels,
                            0.6 * seconds_left() * ground_.executor.threads);
         for (std::size_t c = 0; c < curves_.size(); ++c)
-            if (!costs[c].is_affordable) curves_[c].end(reason::DoublingsTooDear{costs[c].seconds});
+            if (!costs[c].is_affordable) curves_[c].end(why_unaffordable(costs[c]));
+    }
+
+    static CostReason why_unaffordable(const CostEstimate& cost)
+    {
+        if (!cost.is_known) return reason::NoFirstLook{};
+        return reason::DoublingsTooDear{cost.seconds};
     }
 
     bool is_finished() const
@@ -207,7 +230,7 @@ private:
     /// Is every point of the reference 0, as far as it was seen?
     bool is_black() const
     {
-        return !reference_.means.empty() && !ground_.is_stopped() &&
+        return !reference_.means.empty() && !interrupted_.is_up() &&
                std::ranges::all_of(reference_.means, [](double mean) { return mean == 0; });
     }
 
@@ -221,13 +244,14 @@ private:
         report.epsilon = reference_.scale.epsilon;
         report.reference = reference_.report;
         report.is_black = is_black();
-        report.partial = ground_.is_stopped();
+        report.partial = interrupted_.is_up();
         report.seconds = seconds_since(start_);
         return report;
     }
 
     const CostOptions& options_;
     const CostGoal goal_;
+    StopToken interrupted_{options_.stop};
     Clock::time_point start_ = Clock::now();
     StudyPoints points_;
     CostPoints judged_;

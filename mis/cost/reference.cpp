@@ -196,9 +196,10 @@ std::optional<CostReference> exact_reference(const StudyGround& ground)
     reference.means.resize(probes.size());
     std::vector<double> errors(probes.size());
     std::vector<char> is_answered(probes.size());
-    ground.executor.for_each(probes.size(), [&](std::size_t p) {
+    stoppable(ground.executor, ground.stop).for_each(probes.size(), [&](std::size_t p) {
         try {
-            const Predicted found = predict(scene, scene.probes[probes[p]], any).front();
+            const Predicted found =
+                predict(scene, scene.probes[probes[p]], any, {}, {.stop = ground.stop}).front();
             reference.means[p] = found.mean;
             errors[p] = found.mean_error;
             is_answered[p] = found.mean_error <= 1e-4 * found.mean;
@@ -222,7 +223,8 @@ CostReference pooled_reference(const StudyGround& ground, const ReferenceLimit& 
     std::vector<Source> sources;
     std::uint64_t seed = ground.seed ^ 0x7265666572656e63;  // "referenc"
     for (const Strategy& strategy : sources_for(ground))
-        sources.push_back({StrategyRun(ground.scene, ground.points, strategy, seed++)});
+        sources.push_back(
+            {StrategyRun(ground.scene, ground.points, strategy, seed++, ground.stop)});
     std::uint64_t taken = 0;
     for (int count = 16; ground.points.figure_lit > 0; count = std::min(2 * count, 4096)) {
         if (limit.samples > 0 && limit.samples - taken < static_cast<std::uint64_t>(count))
@@ -231,13 +233,14 @@ CostReference pooled_reference(const StudyGround& ground, const ReferenceLimit& 
         for (std::size_t s = 0; s < sources.size(); ++s) {
             const int own = s == 0 || taken == 0 ? count : std::max(1, count / check_share);
             const std::size_t lights = ground.scene.scene().lights.size();
-            sources[s].run.sample_apart(samples_of(sources[s].run.strategy(), lights, own),
-                                        ground.workspaces, ground.executor);
+            if (!sources[s].run.sample_apart(samples_of(sources[s].run.strategy(), lights, own),
+                                             ground.workspaces, ground.executor, ground.stop))
+                throw Stopped();
         }
         weigh(ground, sources);
         if (taken == 0) put_best_first(sources, ground.scene.scene().lights.size());
         taken += static_cast<std::uint64_t>(count);
-        if (ground.is_stopped() || taken == limit.samples) break;
+        if (taken == limit.samples) break;
         if (limit.samples > 0) continue;
         const double next = seconds_since(round) * std::min(2 * count, 4096) / count;
         if (seconds_since(start) + next > limit.seconds) break;

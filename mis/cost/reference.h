@@ -28,7 +28,8 @@ struct ReferenceLimit {
 inline constexpr std::size_t most_lights_for_quadrature = 64;
 
 /// By quadrature (predict.h): of a scene without a camera whose probes' lights no mesh or quad can
-/// hide. Nothing where that cannot answer.
+/// hide. Nothing where that cannot answer. Throws Stopped,
+/// as all here do.
 std::optional<CostReference> exact_reference(const StudyGround& ground);
 
 /// Draws per sample: what a sample costs, the same on every machine.

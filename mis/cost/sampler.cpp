@@ -22,9 +22,10 @@ template <class T> class SamplerOf final : public CostSampler {
 public:
     SamplerOf(const StudyGround& ground, const CostPoints& points, const CostReference& reference,
               const Strategy& strategy, bool is_sobol)
-        : points_(points), reference_(reference), executor_(ground.executor),
+        : points_(points), reference_(reference), stop_(ground.stop),
+          executor_(stoppable(ground.executor, ground.stop)),
           ready_(ground.scene, strategy, kernels<T>(),
-                 {ground.seed, is_sobol ? std::uint64_t{1} << stream_bits : 0})
+                 {ground.seed, is_sobol ? std::uint64_t{1} << stream_bits : 0}, {}, ground.stop)
     {
     }
 
@@ -59,11 +60,12 @@ private:
         std::vector<PointResult> results(tile.count);
         TileErrors sum;
         workspaces_.with([&](Workspace<T>& workspace) {
-            sum.cost = workspace.run(
-                ready_.job(
-                    tile, std::span(points_.points.shading.points).subspan(tile.first, tile.count)),
-                ready_.pipeline(tile), {stream << stream_bits, static_cast<int>(samples), 1},
-                results, {}, {});
+            TileJob<T> job = ready_.job(
+                tile, std::span(points_.points.shading.points).subspan(tile.first, tile.count));
+            job.stop = &stop_;
+            sum.cost = workspace.run(job, ready_.pipeline(tile),
+                                     {stream << stream_bits, static_cast<int>(samples), 1}, results,
+                                     {}, {});
         });
         for (std::size_t i = 0; i < results.size(); ++i) {
             const std::size_t p = (tile.first + i) / points_.copies;
@@ -81,7 +83,8 @@ private:
 
     const CostPoints& points_;
     const CostReference& reference_;
-    const AnyExecutor& executor_;
+    StopToken stop_;
+    AnyExecutor executor_;
     ReadyStrategy<T> ready_;
     WorkspacePool<T> workspaces_;
 };

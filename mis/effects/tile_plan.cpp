@@ -207,15 +207,17 @@ bool TilePlanner::is_unhidden(const Shaft& shaft, std::size_t light) const
 
 void TilePlanner::prove_all_at_once(const TileBounds& tile, TilePlan& plan) const
 {
-    if (plan.shadows)
-        plan.shadows = !is_unshadowed(tile, tile.towards(lights_center_, lights_radius_));
+    if (plan.effects.has(Effect::shadows) &&
+        is_unshadowed(tile, tile.towards(lights_center_, lights_radius_)))
+        plan.effects.set(Effect::shadows, false);
 }
 
 void TilePlanner::prove_each(const TileBounds& tile, TilePlan& plan) const
 {
     const Lights& lights = scene_->lights;
-    const bool asks_lights =
-        plan.light_occlusion && lights.size() * lights.size() <= most_light_pairs;
+    const bool has_shadows = plan.effects.has(Effect::shadows),
+               has_occlusion = plan.effects.has(Effect::light_occlusion);
+    const bool asks_lights = has_occlusion && lights.size() * lights.size() <= most_light_pairs;
     bool shadows = false, light_occlusion = false;
     plan.lights.resize(lights.size());
     for (std::size_t j = 0; j < lights.size(); ++j) {
@@ -224,21 +226,28 @@ void TilePlanner::prove_each(const TileBounds& tile, TilePlan& plan) const
             continue;
         }
         const Shaft shaft = tile.towards(lights[j].center, lights[j].radius);
-        const bool is_lit = !plan.shadows || is_unshadowed(tile, shaft);
-        const bool is_first = !plan.light_occlusion || (asks_lights && is_unhidden(shaft, j));
+        const bool is_lit = !has_shadows || is_unshadowed(tile, shaft);
+        const bool is_first = !has_occlusion || (asks_lights && is_unhidden(shaft, j));
         plan.lights[j] =
             static_cast<std::uint8_t>((is_lit ? unshadowed : 0) | (is_first ? unhidden : 0));
         shadows |= !is_lit, light_occlusion |= !is_first;
     }
-    plan.shadows = shadows, plan.light_occlusion = light_occlusion;
+    plan.effects.set(Effect::shadows, shadows);
+    plan.effects.set(Effect::light_occlusion, light_occlusion);
+}
+
+/// Few enough pairs of a light and a surface?
+bool TilePlanner::can_prove_each() const
+{
+    return scene_->lights.size() * std::max<std::size_t>(bodies_.size(), 1) <= most_surface_pairs;
 }
 
 /// Few enough pairs of a light and a surface; and where it is known how many samples are to come,
 /// no more than some hundredths of the time that these take.
 bool TilePlanner::pays_to_prove_each(std::size_t points) const
 {
+    if (!can_prove_each()) return false;
     const std::size_t pairs = scene_->lights.size() * std::max<std::size_t>(bodies_.size(), 1);
-    if (pairs > most_surface_pairs) return false;
     const double samples = budget_->expected_samples() * static_cast<double>(points);
     constexpr double samples_per_pair = 16;  // a pair takes some hundredths of their time
     return samples <= 0 || static_cast<double>(pairs) * samples_per_pair <= samples;
@@ -246,15 +255,23 @@ bool TilePlanner::pays_to_prove_each(std::size_t points) const
 
 TilePlan TilePlanner::plan(std::span<const ShadingPoint> points) const
 {
+    return plan(points, pays_to_prove_each(points.size()));
+}
+
+TilePlan TilePlanner::proved(std::span<const ShadingPoint> points) const
+{
+    return plan(points, can_prove_each());
+}
+
+TilePlan TilePlanner::plan(std::span<const ShadingPoint> points, bool proves_each) const
+{
     const TileBounds tile = bounds_of(points);
-    TilePlan plan{effects_.shadows,
-                  effects_.light_occlusion,
-                  effects_.horizon && !are_lights_above(tile),
-                  {},
-                  nullptr};
-    if (pays_to_prove_each(points.size())) prove_each(tile, plan);
+    TilePlan plan{.effects = effects_.on & effects_of_tiles, .lights = {}, .blockers = nullptr};
+    if (plan.effects.has(Effect::horizon))
+        plan.effects.set(Effect::horizon, !are_lights_above(tile));
+    if (proves_each) prove_each(tile, plan);
     else prove_all_at_once(tile, plan);
-    if (plan.light_occlusion)
+    if (plan.effects.has(Effect::light_occlusion))
         plan.blockers = Blockers::of(spheres_, scene_->lights, points, budget_);
     return plan;
 }

@@ -23,9 +23,8 @@ enum LightProof : std::uint8_t {
 
 /// What one tile calls for. Plain data.
 struct TilePlan {
-    bool shadows = true;                       ///< of any light that is not below
-    bool light_occlusion = true;               ///< of any light that is not below
-    bool horizon = true;                       ///< some light is not wholly above every point's
+    /// Of effects_of_tiles; shadows and light occlusion: of any light that is not below.
+    EffectSet effects = effects_of_tiles;
     std::vector<std::uint8_t> lights;          ///< [light]: its proofs; empty: none
     std::shared_ptr<const Blockers> blockers;  ///< null: the hierarchy is asked
 };
@@ -41,6 +40,9 @@ public:
 
     /// What a tile of these points calls for. points: at least one.
     TilePlan plan(std::span<const ShadingPoint> points) const;
+
+    /// The same with all that can be proved, whether or not that pays for the samples to come.
+    TilePlan proved(std::span<const ShadingPoint> points) const;
 
     /// So many samples are to come of every point, of all strategies; of plans that are made then.
     void expect_samples(double of_point) const { budget_->expect_samples(of_point); }
@@ -69,6 +71,8 @@ private:
     bool is_unhidden(const Shaft& shaft, std::size_t light) const;
     bool are_lights_above(const TileBounds& tile) const;
     bool pays_to_prove_each(std::size_t points) const;
+    bool can_prove_each() const;
+    TilePlan plan(std::span<const ShadingPoint> points, bool proves_each) const;
     void prove_all_at_once(const TileBounds& tile, TilePlan& plan) const;
     void prove_each(const TileBounds& tile, TilePlan& plan) const;
 

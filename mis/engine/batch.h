@@ -80,6 +80,7 @@ template <class T> struct Batch {
     VecColumn<T> wo;                         ///< in the shading frame
     VecColumn<T> wi;                         ///< in scene axes
     VecColumn<T> offset;                     ///< of a light draw: wi − axis of the cap
+    alignas(64) Column<T> cos_theta;         ///< n·wi as it was drawn; > 0 above the horizon
     VecColumn<T> to_center;                  ///< from x to the light's centre
     alignas(64) Column<T> radius, gap2;      ///< of the light; d² − r²
     alignas(64) Column<T> distance;          ///< along wi to the light

@@ -130,7 +130,7 @@ requires ChoosingPoint<Point, T> DirectDraw<T> draw_towards(const Point& point,
     const Cap<T> cap = point.cap(choice.light);
     assert(!(u.x < 0 || u.x >= 1 || u.y < 0 || u.y >= 1) && "numbers.cap: in [0, 1)");
     const CapDraw<T> draw = Technique::draw(cap, point.n(), u);
-    const T cos_theta = dot(point.n(), draw.wi);
+    const T cos_theta = draw.cos_theta;
     result.wi = draw.wi, result.light = choice.light, result.distance = draw.distance;
     if (!(cos_theta > 0)) {
         if (std::isnan(cos_theta)) result.radiance = no_radiance<T>();

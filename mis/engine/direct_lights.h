@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/engine/light_columns.h"
+#include "mis/engine/radiance_scale.h"
 #include "mis/math/cap.h"
 #include "mis/trace/lights.h"
 
@@ -69,8 +70,9 @@ public:
         cell(columns_.x, i) = center.x, cell(columns_.y, i) = center.y;
         cell(columns_.z, i) = center.z;
         cell(columns_.radius, i) = static_cast<T>(light.radius);
-        cell(columns_.luminance_radius, i) = static_cast<T>(luminance_radius(light));
+        cell(columns_.luminance_radius, i) = static_cast<T>(luminance_radius(light) * scale_);
         note_radius(before.radius, light.radius);
+        note_brightness(luminance_radius(before), luminance_radius(light));
         if (!keeps_tables<Policy>(before, light)) policy_ = Policy(lights_);
     }
 
@@ -86,7 +88,9 @@ private:
     void fill_columns()
     {
         origin_ = {median<0>(), median<1>(), median<2>()};
-        columns_ = fill_light_columns(lights_, origin_, storage_);
+        brightest_ = brightest();
+        scale_ = radiance_scale(brightest_);
+        columns_ = fill_light_columns(lights_, origin_, storage_, nullptr, scale_);
         largest_radius_ = largest_radius();
     }
     /// A number of a column, to be written.
@@ -107,6 +111,22 @@ private:
         else if (before == largest_radius_) largest_radius_ = largest_radius();
         columns_.inverse_largest_radius = static_cast<T>(1 / largest_radius_);
     }
+    double brightest() const
+    {
+        double most = 0;
+        for (const Light& light : lights_) most = std::max(most, luminance_radius(light));
+        return most;
+    }
+    /// Looks at all lights only where the brightest one dims, and fills the columns anew only where
+    /// their scale changes.
+    void note_brightness(double before, double after)
+    {
+        if (after >= brightest_) brightest_ = after;
+        else if (before == brightest_) brightest_ = brightest();
+        if (radiance_scale(brightest_) == scale_) return;
+        scale_ = radiance_scale(brightest_);
+        columns_ = fill_light_columns(lights_, origin_, storage_, nullptr, scale_);
+    }
     template <int axis> double median() const
     {
         if (lights_.empty()) return 0;
@@ -124,6 +144,7 @@ private:
     LargeVector<T> storage_;
     LightColumns<T> columns_;
     double largest_radius_ = 0;
+    double brightest_ = 0, scale_ = 1;  ///< of the luminances in the columns
 };
 
 /// A shading point amid lights: what of it does not depend on a policy.

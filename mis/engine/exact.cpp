@@ -1,8 +1,11 @@
 #include "mis/engine/exact.h"
 
 #include "mis/math/irradiance.h"
+#include "mis/strategy/names.h"
 
 #include <algorithm>
+#include <atomic>
+#include <optional>
 
 namespace mis {
 
@@ -11,7 +14,7 @@ namespace {
 /// Can no light stand before another one that is above the horizon?
 bool is_unhidden(const LitScene& scene, const TilePlan& plan)
 {
-    if (!plan.light_occlusion) return true;
+    if (!plan.effects.has(Effect::light_occlusion)) return true;
     if (plan.blockers == nullptr) return false;
     for (LightIndex j = 0; j < static_cast<LightIndex>(scene.scene().lights.size()); ++j) {
         const auto proofs = plan.lights.empty() ? 0 : plan.lights[static_cast<std::size_t>(j)];
@@ -26,8 +29,55 @@ bool is_unhidden(const LitScene& scene, const TilePlan& plan)
 
 bool has_closed_form(const LitScene& scene, const Tile& tile)
 {
-    return is_diffuse(scene.bsdf(tile.material)) && !tile.plan.shadows &&
+    return is_diffuse(scene.bsdf(tile.material)) && !tile.plan.effects.has(Effect::shadows) &&
            is_unhidden(scene, tile.plan);
+}
+
+bool has_closed_form(const LitScene& scene, const GBuffer& shading, std::size_t tiles,
+                     const AnyExecutor& executor)
+{
+    std::atomic<bool> all = true;
+    executor.for_each(tiles, [&](std::size_t t) {
+        Tile tile = shading.tiles[t];
+        if (!all || has_closed_form(scene, tile)) return;
+        if (!is_diffuse(scene.bsdf(tile.material))) {
+            all = false;
+            return;
+        }
+        tile.plan = scene.proved(std::span(shading.points).subspan(tile.first, tile.count));
+        if (!has_closed_form(scene, tile)) all = false;
+    });
+    return all;
+}
+
+namespace {
+
+/// Is the luminance that a material reflects of a light the same share of the light's own, of all
+/// lights?
+bool have_one_colour(const Scene& scene)
+{
+    const auto is_grey_material = [](const Material& material) { return is_grey(material); };
+    if (std::ranges::all_of(scene.materials, is_grey_material)) return true;
+    std::optional<Vec3<double>> first;  // a colour of luminance 1
+    for (const Light& light : scene.lights) {
+        const auto colour = vec_cast<double>(light.radiance_radius);
+        const double y = luminance(colour);
+        if (!(y > 0)) continue;
+        if (!first) first = colour / y;
+        constexpr double rounding = 8 * 0x1p-23;  // of radiance · radius, to float
+        if (length(colour / y - *first) > rounding * length(*first)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+bool gives_closed_form(const Scene& scene, const Strategy& s)
+{
+    if (!s.chooses_light() || s.heuristic != "light" || !draws_by_irradiance(s.technique))
+        return false;
+    return draws_every_light(s.policy) || scene.lights.size() == 1 ||
+           (weighs_by_irradiance(s.policy) && have_one_colour(scene));
 }
 
 Vec3<double> exact_radiance(const LitScene& scene, const Tile& tile, const ShadingPoint& point)

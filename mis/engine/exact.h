@@ -1,12 +1,24 @@
 #pragma once
 
 #include "mis/engine/render.h"
+#include "mis/strategy/strategy.h"
 
 namespace mis {
 
 /// Has direct light a closed form at every point of a tile? So it is on a Lambertian material where
 /// the tile's plan proves that nothing stands before any light.
 bool has_closed_form(const LitScene& scene, const Tile& tile);
+
+/// Has it at every point of the first `tiles` tiles? By all that can be proved, whatever effects
+/// are simulated, and however many samples are to come.
+bool has_closed_form(const LitScene& scene, const GBuffer& shading, std::size_t tiles,
+                     const AnyExecutor& executor);
+
+/// Is every sample of a strategy the closed form, whatever it draws, wherever there is one? So it
+/// is of light draws by the irradiance's own density, if each light is drawn, or is in proportion
+/// to its irradiance, or is the only one. Of luminance, which all figures are of: with
+/// `irradiance`, lights or materials are grey, or lights of one colour. docs/theory.md §3.
+bool gives_closed_form(const Scene& scene, const Strategy& strategy);
 
 /// Radiance towards the viewer at a point of such a tile, in double: the sum over the lights of f L
 /// E, the horizon's cut included (math/irradiance.h; docs/theory.md, eqs. 48 to 51).

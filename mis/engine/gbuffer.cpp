@@ -41,6 +41,7 @@ struct Found {
     std::map<int, std::vector<ShadingPoint>> by_material;
     std::vector<std::uint32_t> dark;
     std::vector<Background> background;
+    PointCounts counts;
 };
 
 /// Are all lights below the point's tangent plane, by more than the rounding of its normal?
@@ -60,8 +61,11 @@ bool faces_no_light(const ShadingPoint& point, const Lights& lights)
 void add_point(Found& found, const ShadingPoint& point, int material, const Lights& all,
                const LightHierarchy& lights)
 {
-    if (!(dot(point.n, point.wo) > 0) || lights.contains(point.x) || faces_no_light(point, all))
-        found.dark.push_back(point.id);
+    std::size_t* reason = nullptr;
+    if (!(dot(point.n, point.wo) > 0)) reason = &found.counts.seen_from_below;
+    else if (lights.contains(point.x)) reason = &found.counts.inside_light;
+    else if (faces_no_light(point, all)) reason = &found.counts.facing_no_light;
+    if (reason != nullptr) ++*reason, found.dark.push_back(point.id);
     else found.by_material[material].push_back(point);
 }
 
@@ -79,11 +83,15 @@ void add_pixel(Found& found, const Scene& scene, const PixelRays& rays,
         found.background.push_back({id, light.light});
         return;
     }
+    const std::size_t dark = found.dark.size();
     const Vec3<double> off = hit->x + hit->geometric * hit->offset;
     add_point(found,
               {hit->x, vec_cast<float>(hit->n), vec_cast<float>(-direction),
                vec_cast<float>(off - surfaces->origin()), id},
               hit->material, scene.lights, lights);
+    if (!hit->is_n_behind()) return;
+    ++found.counts.turned_normals;
+    found.counts.turned_and_dark += found.dark.size() - dark;
 }
 
 void append(GBuffer& buffer, const Found& found)
@@ -97,6 +105,19 @@ void append(GBuffer& buffer, const Found& found)
     buffer.dark.insert(buffer.dark.end(), found.dark.begin(), found.dark.end());
     buffer.background.insert(buffer.background.end(), found.background.begin(),
                              found.background.end());
+    buffer.counts.add(found.counts);
+}
+
+/// How far rays start off each probe; none without surfaces.
+std::vector<double> offsets_of_probes(const Scene& scene, const SurfaceTracer* surfaces,
+                                      const AnyExecutor& executor)
+{
+    if (surfaces == nullptr) return {};
+    std::vector<Vec3<double>> positions;
+    for (const Probe& probe : scene.probes) positions.push_back(probe.position);
+    std::vector<double> offsets(positions.size());
+    surfaces->offsets_at(positions, offsets, executor.for_each);
+    return offsets;
 }
 
 }  // namespace
@@ -125,26 +146,33 @@ GBuffer find_shading_points(const Scene& scene, const LightHierarchy& lights,
 }
 
 GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
-                     const SurfaceTracer* surfaces)
+                     const SurfaceTracer* surfaces, const AnyExecutor& executor)
 {
-    GBuffer buffer;
     const std::uint32_t pixels = scene.camera
                                      ? static_cast<std::uint32_t>(scene.camera->resolution[0]) *
                                            static_cast<std::uint32_t>(scene.camera->resolution[1])
                                      : 0;
-    for (std::size_t p = 0; p < scene.probes.size(); ++p) {
+    const std::vector<double> offsets = offsets_of_probes(scene, surfaces, executor);
+    const auto ray_origin = [&](std::size_t p) {
+        if (surfaces == nullptr) return Vec3<double>(0);
         const Probe& probe = scene.probes[p];
-        Vec3<double> off{0};
-        if (surfaces != nullptr)
-            off = probe.position + probe.normal * surfaces->offset_at(probe.position) -
-                  surfaces->origin();
-        Found found;
-        add_point(found,
-                  {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing),
-                   vec_cast<float>(off), pixels + static_cast<std::uint32_t>(p)},
-                  probe.material, scene.lights, lights);
-        append(buffer, found);
-    }
+        return probe.position + probe.normal * offsets[p] - surfaces->origin();
+    };
+    constexpr std::size_t at_once = 64;
+    std::vector<Found> found(scene.probes.size());
+    executor.for_each((found.size() + at_once - 1) / at_once, [&](std::size_t block) {
+        const std::size_t end = std::min((block + 1) * at_once, found.size());
+        for (std::size_t p = block * at_once; p < end; ++p) {
+            const Probe& probe = scene.probes[p];
+            add_point(
+                found[p],
+                {probe.position, vec_cast<float>(probe.normal), vec_cast<float>(probe.outgoing),
+                 vec_cast<float>(ray_origin(p)), pixels + static_cast<std::uint32_t>(p)},
+                probe.material, scene.lights, lights);
+        }
+    });
+    GBuffer buffer;
+    for (const Found& of_probe : found) append(buffer, of_probe);
     return buffer;
 }
 

@@ -2,6 +2,7 @@
 
 #include "mis/effects/tile_plan.h"
 #include "mis/run/executor.h"
+#include "mis/scene/point_counts.h"
 #include "mis/scene/scene.h"
 #include "mis/scene/shading_point.h"
 #include "mis/trace/lights.h"
@@ -36,6 +37,7 @@ struct GBuffer {
     std::vector<std::uint32_t> dark;   ///< ids of points that see no light: inside one, seen from
                                        ///< below, or above all of them
     std::vector<Background> background;
+    PointCounts counts = {};
 };
 
 /// Points per tile at most: a square of pixels.
@@ -52,6 +54,6 @@ void plan_tiles(GBuffer& buffer, const TilePlanner& planner, const AnyExecutor& 
 
 /// The probes, each a tile of its own.
 GBuffer probe_points(const Scene& scene, const LightHierarchy& lights,
-                     const SurfaceTracer* surfaces);
+                     const SurfaceTracer* surfaces, const AnyExecutor& executor);
 
 }  // namespace mis

@@ -3,6 +3,7 @@
 #include "mis/effects/tile_plan.h"
 #include "mis/engine/batch.h"
 #include "mis/engine/light_order.h"
+#include "mis/math/stop_token.h"
 #include "mis/policy/light_choice.h"
 #include "mis/sampling/number_source.h"
 #include "mis/scene/shading_point.h"
@@ -28,13 +29,16 @@ template <class T> struct TileJob {
     LightColumns<T> columns;       ///< for policies that look at all lights, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
-    int bsdf_type = -1;  ///< bsdf_number() of its name
+    int bsdf_type = -1;         ///< bsdf_number() of its name
+    double radiance_scale = 1;  ///< of radiance and contributions in the batch: radiance_scale.h
+    double radiance_unit = 1;   ///< what undoes it
     NumberSource numbers;
     T light_count = 1,
       bsdf_count = 1;  ///< n_i of the multi-sample model; c_i of the one-sample model
     bool draws_every_light = false;
     std::uint32_t draws_per_light = 1;  ///< or per sample, where the policy draws one
     std::uint32_t bsdf_draws = 1;       ///< per sample
+    const StopToken* stop = nullptr;    ///< asked between batches and draws; nullptr: never
 
     /// Is that proved of a light?
     MIS_INLINE bool knows(LightIndex light, LightProof proof) const

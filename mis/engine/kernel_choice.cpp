@@ -1,10 +1,10 @@
 #include "mis/engine/kernels.h"
 
-#include "mis/scene/raise.h"
+#include "mis/math/raise.h"
+#include "mis/scene/named.h"
 
 #include <cstdlib>
 #include <stdexcept>
-#include <string>
 
 namespace mis {
 
@@ -64,23 +64,14 @@ InstructionSet chosen(std::string_view name)
 {
     const std::vector<InstructionSet> sets = available();
     if (name.empty()) return sets.front();
-    std::string known;
-    for (const InstructionSet& set : sets) {
-        if (set.name == name) return set;
-        known += (known.empty() ? "" : ", ") + std::string(set.name);
-    }
-    raise<std::runtime_error>("instruction set: found \"" + std::string(name) +
-                              "\"; this processor and this build have " + known);
+    if (const InstructionSet* set = find_named(sets, name)) return *set;
+    raise<std::runtime_error>(unknown_name(
+        "instruction set of this processor and this build: found", name, names_in(sets)));
 }
 
 }  // namespace
 
-std::vector<std::string_view> instruction_sets()
-{
-    std::vector<std::string_view> names;
-    for (const InstructionSet& set : available()) names.push_back(set.name);
-    return names;
-}
+std::vector<std::string_view> instruction_sets() { return names_in(available()); }
 
 template <> const Kernels<float>& kernels_of<float>(std::string_view name)
 {

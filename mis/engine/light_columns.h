@@ -10,10 +10,11 @@
 namespace mis {
 
 /// The lights as columns relative to `origin`, in `storage`; in an order of their own, or the
-/// scene's. Linear in the number of lights.
+/// scene's; luminances times `scale`. Linear in the number of lights.
 template <class T>
 LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& origin,
-                                   LargeVector<T>& storage, const LightOrder* order = nullptr)
+                                   LargeVector<T>& storage, const LightOrder* order = nullptr,
+                                   double scale = 1)
 {
     const std::size_t count = lights.size(), padded = (count + 15) / 16 * 16;
     storage.resize(padded * 5);
@@ -30,7 +31,7 @@ LightColumns<T> fill_light_columns(const Lights& lights, const Vec3<double>& ori
         const Vec3<T> center = vec_cast<T>(light.center - origin);
         column[0][j] = center.x, column[1][j] = center.y, column[2][j] = center.z;
         column[3][j] = static_cast<T>(light.radius);
-        column[4][j] = static_cast<T>(luminance_radius(light));
+        column[4][j] = static_cast<T>(luminance_radius(light) * scale);
         largest = std::max(largest, light.radius);
     }
     return {

@@ -24,9 +24,10 @@ int widest_axis(const Lights& lights, std::span<const LightIndex> some)
     return extent.x >= extent[yz] ? 0 : yz;
 }
 
-void sort_by_halves(const Lights& lights, std::span<LightIndex> some)
+void sort_by_halves(const Lights& lights, std::span<LightIndex> some, const StopToken& stop)
 {
     while (some.size() > 1) {
+        stop.check();
         const int axis = widest_axis(lights, some);
         const auto half = static_cast<std::ptrdiff_t>(some.size() / 2);
         const auto place = [&](LightIndex j) {
@@ -34,19 +35,19 @@ void sort_by_halves(const Lights& lights, std::span<LightIndex> some)
         };
         std::nth_element(some.begin(), some.begin() + half, some.end(),
                          [&](LightIndex a, LightIndex b) { return place(a) < place(b); });
-        sort_by_halves(lights, some.first(some.size() / 2));
+        sort_by_halves(lights, some.first(some.size() / 2), stop);
         some = some.subspan(some.size() / 2);
     }
 }
 
 }  // namespace
 
-LightOrder spatial_order(const Lights& lights)
+LightOrder spatial_order(const Lights& lights, const StopToken& stop)
 {
     LightOrder order;
     order.light_at.resize(lights.size());
     std::iota(order.light_at.begin(), order.light_at.end(), LightIndex{0});
-    sort_by_halves(lights, order.light_at);
+    sort_by_halves(lights, order.light_at, stop);
     order.place_of.resize(lights.size());
     for (std::size_t k = 0; k < lights.size(); ++k)
         order.place_of[static_cast<std::size_t>(order.light_at[k])] = static_cast<LightIndex>(k);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/scene/light.h"
 
 #include <vector>
@@ -15,8 +16,8 @@ struct LightOrder {
 };
 
 /// By halves: the lights cut in two at the median of their widest extent, and each half likewise,
-/// so that a far sun leaves the lamps' order alone. O(M log M).
-LightOrder spatial_order(const Lights& lights);
+/// so that a far sun leaves the lamps' order alone. O(M log M). Throws Stopped.
+LightOrder spatial_order(const Lights& lights, const StopToken& stop = {});
 
 /// The lights as they stand in that order.
 Lights in_order(const Lights& lights, const LightOrder& order);

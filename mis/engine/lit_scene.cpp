@@ -1,17 +1,21 @@
 #include "mis/engine/lit_scene.h"
 
 #include "mis/engine/choices.h"
+#include "mis/engine/radiance_scale.h"
 #include "mis/strategy/names.h"
+#include "mis/trace/surface_points.h"
 
 #include <algorithm>
 
 namespace mis {
 
-LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects)
-    : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights),
+LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects,
+                   const StopToken& stop)
+    : scene_(&scene), surfaces_(surfaces), effects_(effects), hierarchy_(scene.lights, stop),
       planner_(scene, hierarchy_, effects,
                surfaces != nullptr ? surfaces->origin() : Vec3<double>(0)),
-      has_grey_lights_(are_grey(scene.lights))
+      has_grey_lights_(are_grey(scene.lights)),
+      radiance_scale_(mis::radiance_scale(scene.lights, frame_origin_of(scene)))
 {
     for (const Material& material : scene.materials) bsdfs_.push_back(make_bsdf(material));
 }
@@ -20,55 +24,76 @@ Effects LitScene::effects(int material) const
 {
     Effects effects = effects_;
     if (!effects.by_tile) return effects;
-    effects.specular = effects.specular && !is_diffuse(bsdf(material));
-    effects.colour =
-        effects.colour &&
-        !(has_grey_lights_ && is_grey(scene_->materials[static_cast<std::size_t>(material)]));
+    if (is_diffuse(bsdf(material))) effects.on.set(Effect::specular, false);
+    if (has_grey_lights_ && is_grey(scene_->materials[static_cast<std::size_t>(material)]))
+        effects.on.set(Effect::colour, false);
     return effects;
 }
+
+namespace {
+
+/// Of what is simulated on a material, what a tile leaves of it.
+EffectSet of_tile(EffectSet of_material, EffectSet of_tile_itself)
+{
+    return of_material - (effects_of_tiles - of_tile_itself);
+}
+
+}  // namespace
 
 EffectShares LitScene::tiles_that_call(const GBuffer& buffer) const
 {
     EffectShares counts;
-    const auto one = [](bool is_on) { return is_on ? 1.0 : 0.0; };
-    for (const Tile& tile : buffer.tiles) {
-        const Effects on = effects(tile.material);
-        counts.add({one(tile.plan.shadows && on.shadows),
-                    one(tile.plan.light_occlusion && on.light_occlusion),
-                    one(tile.plan.horizon && on.horizon), one(on.specular), one(on.choice),
-                    one(on.colour)});
-    }
+    for (const Tile& tile : buffer.tiles)
+        counts.add(of_tile(effects(tile.material).on, tile.plan.effects));
     return counts;
+}
+
+std::shared_ptr<const void> LitScene::policy(const std::string& name, const StopToken& stop) const
+{
+    return policies_->get(name, [&] { return make_policy(name, scene_->lights, stop); });
+}
+
+std::shared_ptr<const LightOrder> LitScene::order(const StopToken& stop) const
+{
+    return std::static_pointer_cast<const LightOrder>(orders_->get("space", [&] {
+        return std::make_shared<const LightOrder>(spatial_order(scene_->lights, stop));
+    }));
+}
+
+std::shared_ptr<const void> LitScene::policy_in_order(const std::string& name,
+                                                      const StopToken& stop) const
+{
+    const std::shared_ptr<const LightOrder> by_place = order(stop);
+    return policies_in_order_->get(
+        name, [&] { return make_policy(name, in_order(scene_->lights, *by_place), stop); });
 }
 
 template <class T>
 ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
-                                const Kernels<T>& kernels, NumberSource numbers,
-                                const Effects& also)
+                                const Kernels<T>& kernels, NumberSource numbers, EffectSet also,
+                                const StopToken& stop)
     : scene_(&scene), strategy_(strategy)
 {
     const Lights& lights = scene.scene().lights;
     if (strategy.chooses_light() && numbers.is_sobol()) {
-        order_ = std::make_shared<LightOrder>(spatial_order(lights));
-        policy_ = make_policy(strategy.policy, in_order(lights, *order_));
+        order_ = scene.order(stop);
+        policy_ = scene.policy_in_order(strategy.policy, stop);
     } else if (strategy.chooses_light()) {
-        policy_ = make_policy(strategy.policy, lights);
+        policy_ = scene.policy(strategy.policy, stop);
     }
     const std::vector<Material>& materials = scene.scene().materials;
     pipelines_.resize(materials.size());
     for (std::size_t m = 0; m < materials.size(); ++m) {
         Effects whole = scene.effects(static_cast<int>(m));
-        whole.specular |= also.specular, whole.choice |= also.choice, whole.colour |= also.colour;
-        for (const int k : {0, 1, 2, 3, 4, 5, 6, 7}) {
-            const bool shadows = (k & 4) != 0, light_occlusion = (k & 2) != 0,
-                       horizon = (k & 1) != 0;
+        whole.on = whole.on | (also - effects_of_tiles);
+        for (std::size_t bits = 0; bits < pipelines_[m].size(); ++bits) {
             Effects effects = whole;
-            effects.shadows &= shadows, effects.light_occlusion &= light_occlusion;
-            effects.horizon &= horizon;
-            pipelines_[m][shadows][light_occlusion][horizon] =
-                compose(kernels, strategy, materials[m].type, effects, numbers);
+            effects.on = of_tile(whole.on, EffectSet::of_bits(bits));
+            pipelines_[m][bits] = compose(kernels, strategy, materials[m].type, effects, numbers);
         }
     }
+    common_.radiance_scale = scene.radiance_scale();
+    common_.radiance_unit = 1 / scene.radiance_scale();
     common_.lights = &lights;
     common_.order = order_.get();
     common_.hierarchy = &scene.lights();

@@ -4,13 +4,17 @@
 #include "mis/effects/effects.h"
 #include "mis/effects/tile_plan.h"
 #include "mis/engine/gbuffer.h"
+#include "mis/engine/light_order.h"
 #include "mis/engine/tile.h"
+#include "mis/math/stop_token.h"
+#include "mis/run/made_once.h"
 #include "mis/run/pool.h"
 #include "mis/scene/scene.h"
 #include "mis/trace/lights.h"
 #include "mis/trace/visibility.h"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mis {
@@ -19,8 +23,9 @@ namespace mis {
 /// surfaces. Keeps references to the scene and the tracer.
 class LitScene {
 public:
-    /// surfaces: nullptr where the scene has none.
-    LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects);
+    /// surfaces: nullptr where the scene has none. Throws Stopped.
+    LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effects& effects,
+             const StopToken& stop = {});
 
     /// What it was made of.
     const Scene& scene() const { return *scene_; }
@@ -40,6 +45,9 @@ public:
     }
     /// What is simulated on surfaces of a material.
     Effects effects(int material) const;
+    /// What a tile of these points calls for, by all that can be proved of it, whatever is
+    /// simulated.
+    TilePlan proved(std::span<const ShadingPoint> points) const { return planner_.proved(points); }
     /// How many of a buffer's tiles call for an effect.
     EffectShares tiles_that_call(const GBuffer& buffer) const;
     /// A view of a material's BSDF.
@@ -49,6 +57,17 @@ public:
         return {bsdfs_[i].get(), bsdf_number(scene_->materials[i].type)};
     }
 
+    /// What kernels multiply radiance by, and results are divided by (engine/radiance_scale.h).
+    double radiance_scale() const { return radiance_scale_; }
+    /// A policy's tables, an object of its type (engine/choices.h), made when it
+    /// is first asked for and then shared by all strategies. Throws Stopped.
+    std::shared_ptr<const void> policy(const std::string& name, const StopToken& stop = {}) const;
+    /// The order of Sobol' numbers, made once. Throws Stopped.
+    std::shared_ptr<const LightOrder> order(const StopToken& stop = {}) const;
+    /// A policy's tables in that order, made once, as well. Throws Stopped.
+    std::shared_ptr<const void> policy_in_order(const std::string& name,
+                                                const StopToken& stop = {}) const;
+
 private:
     const Scene* scene_;
     const SurfaceTracer* surfaces_;
@@ -57,6 +76,11 @@ private:
     TilePlanner planner_;
     std::vector<std::shared_ptr<const void>> bsdfs_;
     bool has_grey_lights_;
+    double radiance_scale_;
+    using Made = MadeOnce<std::shared_ptr<const void>>;
+    std::shared_ptr<Made> policies_ = std::make_shared<Made>(),
+                          policies_in_order_ = std::make_shared<Made>(),
+                          orders_ = std::make_shared<Made>();
 };
 
 /// One strategy made ready on a scene: its policy's tables, and pipelines for each material, from
@@ -65,9 +89,9 @@ template <class T> class ReadyStrategy {
 public:
     /// strategy: checked (strategy/strategy.h). kernels: kernels<T>(). Keeps references to scene
     /// and kernels. also: effects that no scene, tile or material has left out, whatever it calls
-    /// for.
+    /// for. Throws Stopped.
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
-                  NumberSource numbers, const Effects& also = no_effects);
+                  NumberSource numbers, EffectSet also = {}, const StopToken& stop = {});
 
     /// A job over some points of a tile, or all of them; they are kept by reference.
     TileJob<T> job(const Tile& tile, std::span<const ShadingPoint> points) const;
@@ -84,16 +108,16 @@ public:
 private:
     const Pipeline<T>& pipeline(int material, const TilePlan& plan) const
     {
-        return pipelines_[static_cast<std::size_t>(material)][plan.shadows][plan.light_occlusion]
-                         [plan.horizon];
+        return pipelines_[static_cast<std::size_t>(material)][plan.effects.bits()];
     }
 
     const LitScene* scene_;
     Strategy strategy_;
     std::shared_ptr<const LightOrder> order_;  ///< of Sobol' numbers; else the scene's
     std::shared_ptr<const void> policy_;
-    /// [material][with shadows][with light occlusion][with a horizon]
-    std::vector<std::array<std::array<std::array<Pipeline<T>, 2>, 2>, 2>> pipelines_;
+    static_assert((effects_of_tiles.bits() & (effects_of_tiles.bits() + 1)) == 0, "the first ones");
+    /// [material][bits of a tile's effects]
+    std::vector<std::array<Pipeline<T>, effects_of_tiles.bits() + 1>> pipelines_;
     TileJob<T> common_;
 };
 

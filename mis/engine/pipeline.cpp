@@ -1,7 +1,8 @@
 #include "mis/engine/pipeline.h"
 
 #include "mis/engine/stages_trace.h"
-#include "mis/scene/raise.h"
+#include "mis/math/raise.h"
+#include "mis/scene/named.h"
 
 #include <stdexcept>
 #include <string>
@@ -9,13 +10,6 @@
 namespace mis {
 
 namespace {
-
-template <class List> const auto& named(const List& list, std::string_view name)
-{
-    for (const auto& entry : list)
-        if (entry.name == name) return entry;
-    raise<std::out_of_range>("no stage is made for " + std::string(name));
-}
 
 template <class T>
 const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view technique,
@@ -30,12 +24,13 @@ const DirectionStages<T>& direction(const Kernels<T>& kernels, std::string_view 
 template <class T>
 Stage<T> evaluation(const Kernels<T>& kernels, std::string_view bsdf, const Effects& effects)
 {
-    return named(kernels.bsdfs, bsdf).evaluate[effects.specular][effects.horizon];
+    return require_named(kernels.bsdfs, "BSDF", bsdf)
+        .evaluate[effects.on.has(Effect::specular)][effects.on.has(Effect::horizon)];
 }
 
 template <class T> void add_surfaces(std::vector<NamedStage<T>>& stages, const Effects& effects)
 {
-    if (effects.shadows) stages.push_back({StageKind::rays, hide_by_surfaces<T>});
+    if (effects.on.has(Effect::shadows)) stages.push_back({StageKind::rays, hide_by_surfaces<T>});
 }
 
 template <class T>
@@ -43,26 +38,29 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
                                       std::string_view bsdf, const Effects& effects,
                                       Stage<T> numbers)
 {
-    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
-    const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
+    const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
+    const LightTechniqueStages<T>& technique =
+        require_named(kernels.light_techniques, "technique", s.technique);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_light_rows<T>});
     stages.push_back({StageKind::numbers, numbers});
-    stages.push_back({StageKind::choose, effects.choice ? policy.choose : policy.choose_only});
+    stages.push_back(
+        {StageKind::choose, effects.on.has(Effect::choice) ? policy.choose : policy.choose_only});
     stages.push_back({StageKind::draw, technique.draw});
-    if (technique.sums_lights && effects.light_occlusion)
+    if (technique.sums_lights && effects.on.has(Effect::light_occlusion))
         stages.push_back({StageKind::meet, policy.sum_light_draw});
     stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
-    stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_light});
+    stages.push_back({StageKind::weigh,
+                      require_named(kernels.heuristics, "heuristic", s.heuristic).weigh_light});
     // The cheaper question first: what one answer hides, the other is not asked about.
     const bool is_screened = effects.lights <= most_screened_lights;
     if (!is_screened) add_surfaces(stages, effects);
-    if (!technique.sums_lights && effects.light_occlusion) {
+    if (!technique.sums_lights && effects.on.has(Effect::light_occlusion)) {
         if (is_screened) stages.push_back({StageKind::light_occlusion, kernels.screen_hiding});
         stages.push_back({StageKind::light_occlusion, hide_by_lights<T>});
     }
     if (is_screened) add_surfaces(stages, effects);
-    stages.push_back({StageKind::add, kernels.sums[effects.colour].add});
+    stages.push_back({StageKind::add, kernels.sums[effects.on.has(Effect::colour)].add});
     return stages;
 }
 
@@ -72,8 +70,9 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
                                      std::string_view bsdf, const Effects& effects,
                                      Stage<T> numbers)
 {
-    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
-    const LightTechniqueStages<T>& technique = named(kernels.light_techniques, s.technique);
+    const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
+    const LightTechniqueStages<T>& technique =
+        require_named(kernels.light_techniques, "technique", s.technique);
     std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
     if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_bsdf_rows<T>});
     stages.push_back({StageKind::numbers, numbers});
@@ -83,12 +82,13 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
     stages.push_back({StageKind::meet, meet_lights<T>});
     stages.push_back({StageKind::choose, policy.probability});
     stages.push_back({StageKind::draw, technique.pdf});
-    if (technique.sums_lights && effects.light_occlusion)
+    if (technique.sums_lights && effects.on.has(Effect::light_occlusion))
         stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
     stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
-    stages.push_back({StageKind::weigh, named(kernels.heuristics, s.heuristic).weigh_bsdf});
+    stages.push_back(
+        {StageKind::weigh, require_named(kernels.heuristics, "heuristic", s.heuristic).weigh_bsdf});
     add_surfaces(stages, effects);
-    stages.push_back({StageKind::add, kernels.sums[effects.colour].add});
+    stages.push_back({StageKind::add, kernels.sums[effects.on.has(Effect::colour)].add});
     return stages;
 }
 
@@ -110,7 +110,7 @@ std::vector<NamedStage<T>> direction_alone(const Kernels<T>& kernels, const Stra
     stages.push_back({StageKind::bsdf, draw.pdf});
     stages.push_back({StageKind::weigh, kernels.weigh_alone});
     add_surfaces(stages, effects);
-    stages.push_back({StageKind::add, kernels.sums[effects.colour].add});
+    stages.push_back({StageKind::add, kernels.sums[effects.on.has(Effect::colour)].add});
     return stages;
 }
 
@@ -125,14 +125,14 @@ Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_vi
     const Stage<T> bsdf_numbers =
         numbers.is_sobol() ? kernels.sobol_bsdf_numbers : kernels.bsdf_numbers;
     Pipeline<T> pipeline;
-    pipeline.colour = effects.colour;
-    pipeline.sums = kernels.sums[effects.colour];
+    pipeline.colour = effects.on.has(Effect::colour);
+    pipeline.sums = kernels.sums[effects.on.has(Effect::colour)];
     if (!s.chooses_light()) {
         pipeline.bsdf = direction_alone(kernels, s, bsdf, effects, bsdf_numbers);
         pipeline.bsdf_draws = 1;
         return pipeline;
     }
-    const PolicyStages<T>& policy = named(kernels.policies, s.policy);
+    const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
     pipeline.prepare = policy.prepare;
     pipeline.draws_every_light = policy.draws_every_light;
     pipeline.reads_all_lights = policy.reads_all_lights;

@@ -1,5 +1,8 @@
 #include "mis/engine/render.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace mis {
 
 Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor)
@@ -14,24 +17,34 @@ Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor
 
 TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first,
                       int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor,
-                      const std::atomic<bool>* stop)
+                      const StopToken& stop)
 {
     const GBuffer& shading = band.shading;
     std::vector<TileTotals> totals(shading.tiles.size());
     executor.for_each(shading.tiles.size(), [&](std::size_t t) {
-        if (stop != nullptr && *stop) return;
+        if (stop.is_up()) return;
         const Tile& tile = shading.tiles[t];
         const auto points = std::span(shading.points).subspan(tile.first, tile.count);
-        workspaces.with([&](Workspace<float>& workspace) {
-            totals[t] =
-                workspace.run(strategy.job(tile, points), strategy.pipeline(tile),
-                              {.first = first, .chunk = count, .chunks = 1},
-                              std::span(band.results).subspan(tile.first, tile.count), {}, {});
-        });
+        TileJob<float> job = strategy.job(tile, points);
+        job.stop = &stop;
+        const auto run = [&](Workspace<float>& workspace) {
+            totals[t] = workspace.run(
+                job, strategy.pipeline(tile), {.first = first, .chunk = count, .chunks = 1},
+                std::span(band.results).subspan(tile.first, tile.count), {}, {});
+        };
+        // Where it is stopped, the samples that were taken stay.
+        static_cast<void>(ends_without<Stopped>([&] { workspaces.with(run); }));
     });
     TileTotals sum;
     for (const TileTotals& t : totals) sum.add(t);
     return sum;
+}
+
+std::uint64_t least_samples(const Band& band)
+{
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    for (const PointResult& result : band.results) least = std::min(least, result.luminance.count);
+    return band.results.empty() ? 0 : least;
 }
 
 void draw_band(const LitScene& scene, const Band& band, Image& image)

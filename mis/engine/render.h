@@ -1,8 +1,8 @@
 #pragma once
 
 #include "mis/engine/lit_scene.h"
+#include "mis/math/stop_token.h"
 
-#include <atomic>
 #include <functional>
 #include <vector>
 
@@ -23,11 +23,14 @@ struct Band {
 /// The shading points of a picture's rows, unlit.
 Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor);
 
-/// Adds samples [first, first + count) to every shading point, or to those of the tiles begun when
-/// `stop` is set. Returns what it cost.
+/// Adds samples [first, first + count) to every shading point; once `stop` is up, to some alone
+/// (least_samples). Returns what it cost.
 TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first,
                       int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor,
-                      const std::atomic<bool>* stop = nullptr);
+                      const StopToken& stop = {});
+
+/// How many samples every shading point of the band has, at least.
+std::uint64_t least_samples(const Band& band);
 
 /// The band's pixels into the image: means at shading points, lights that the camera sees, black
 /// elsewhere.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/engine/lit_scene.h"
+#include "mis/math/stop_token.h"
 
 #include <vector>
 
@@ -28,8 +29,9 @@ struct Replay {
 
 /// One sample again, stage by stage: the same numbers, the same arithmetic, every intermediate
 /// result. What no stage of the half has filled yet is 0; a half ends where nothing is left of it.
+/// Throws Stopped.
 template <class T>
 Replay replay(const LitScene& scene, const ReadyStrategy<T>& strategy, const Tile& tile,
-              const ShadingPoint& point, std::uint64_t sample);
+              const ShadingPoint& point, std::uint64_t sample, const StopToken& stop = {});
 
 }  // namespace mis

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct ScalarBsdf {
     std::function<BsdfValue<double>(const Vec3<double>& wo, const Vec3<double>& wi)> evaluate;
     std::function<Vec3<double>(const Vec3<double>& wo, double lobe, const Vec2<double>& u)> sample;
     bool draws = true;
+    double lobe_share = 0;  ///< of the draws: those with `lobe` below it are the lobe's
 };
 
 /// Throws std::out_of_range for an unknown type.
@@ -48,16 +50,25 @@ public:
         std::function<Choice(std::uint64_t bits)> choose;
         std::function<double(LightIndex)> probability;
     };
-    /// Throws std::out_of_range for an unknown name. Keeps a reference to the lights.
-    ScalarPolicy(std::string_view name, const Lights& lights);
+    /// made: make_policy(name, lights), where it is at hand. Throws std::out_of_range for an
+    /// unknown name. Keeps a reference to the lights.
+    ScalarPolicy(std::string_view name, const Lights& lights,
+                 const std::shared_ptr<const void>& made = nullptr);
     /// wo: in the shading frame about n.
     const Table& at(const Vec3<double>& x, const Vec3<double>& n, const Vec3<double>& wo,
                     const AnyBsdf& bsdf);
+    /// The same where the lights' columns are at hand; none are asked for unless
+    /// reads_all_lights().
+    const Table& at(const ChoicePoint<double>& point, const LightColumns<double>& columns);
+    bool reads_all_lights() const { return reads_all_lights_; }
+    /// Does a table differ from point to point, though it was made without a look at all lights? A
+    /// probability then takes a walk.
+    bool walks() const { return !reads_all_lights_ && has_tables_; }
     bool draws_every_light() const { return draws_every_light_; }
 
 private:
     const Lights* lights_;
-    bool draws_every_light_ = false;
+    bool draws_every_light_ = false, has_tables_ = false;
     std::function<Table(const ChoicePoint<double>&, const LightColumns<double>&, Scratch&)>
         prepare_;
     bool reads_all_lights_ = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/engine/rows.h"
+#include "mis/sampling/horizon.h"
 
 namespace mis {
 inline namespace MIS_ISA {
@@ -16,8 +17,8 @@ MIS_INLINE BsdfValue<V> value_of(const B& bsdf, const Vec3<V>& wo, const Vec3<V>
     else return bsdf.evaluate(wo, wi);
 }
 
-/// wi → contribution (f cos θ) and bsdf_pdf; both 0 below the horizon. With a lobe, or what is
-/// left where a BSDF has none; with a horizon, or where no wi is below it.
+/// wi, cos_theta → contribution (f cos θ) and bsdf_pdf; both 0 below the horizon. With a lobe, or
+/// what is left where a BSDF has none; with a horizon, or where no wi is below it.
 template <class V, class B, bool lobe, bool horizon, class T>
 void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
 {
@@ -26,6 +27,7 @@ void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Frame<V> frame = frame_around(batch.n.template get<V>(row));
         Vec3<V> wi = frame.to_local(batch.wi.template get<V>(row));
+        wi.z = lanes_of<V>(batch.cos_theta, row);
         const auto above = wi.z > zero;
         if constexpr (horizon) wi.z = select(above, wi.z, number<V>(1));
         const BsdfValue<V> value = value_of<lobe>(bsdf, batch.wo.template get<V>(row), wi);
@@ -44,7 +46,7 @@ void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
 /// What a technique is given that does not ask the BSDF.
 struct NoBsdf {};
 
-/// lobe, u, v → wi. A draw below the horizon is lost: wi = 0.
+/// lobe, u, v → wi, cos_theta. A draw below the horizon is lost: wi = 0.
 template <class V, class B, class Technique, class T>
 void draw_direction(const TileJob<T>& job, Batch<T>& batch)
 {
@@ -55,19 +57,22 @@ void draw_direction(const TileJob<T>& job, Batch<T>& batch)
         const Vec2<V> u{lanes_of<V>(batch.u, row), lanes_of<V>(batch.v, row)};
         const Vec3<V> local = Technique::sample(bsdf, batch.wo.template get<V>(row),
                                                 V(lanes_of<V>(batch.lobe, row)), u);
-        const Vec3<V> wi = frame_around(batch.n.template get<V>(row)).to_world(local);
+        const Vec3<V> n = batch.n.template get<V>(row);
         const V keep = draws ? select(local.z > zero, number<V>(1), zero) : zero;
-        batch.wi.set(row, Vec3<V>(wi * keep));
+        const Vec3<V> wi = kept_above(frame_around(n).to_world(local), n, local.z) * keep;
+        batch.wi.set(row, wi);
+        set_lanes(batch.cos_theta, row, V(dot(n, wi)));
     });
 }
 
-/// bsdf_pdf → pdf of the technique that drew wi.
+/// bsdf_pdf, cos_theta → pdf of the technique that drew wi.
 template <class V, class Technique, class T>
 void pdf_of_direction(const TileJob<T>&, Batch<T>& batch)
 {
     for_each_lane_group<V>(batch.rows, [&](int row) {
-        const Vec3<V> wi =
+        Vec3<V> wi =
             frame_around(batch.n.template get<V>(row)).to_local(batch.wi.template get<V>(row));
+        wi.z = lanes_of<V>(batch.cos_theta, row);
         set_lanes(batch.bsdf_pdf, row, V(Technique::pdf(V(lanes_of<V>(batch.bsdf_pdf, row)), wi)));
     });
 }

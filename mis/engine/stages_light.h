@@ -82,6 +82,18 @@ template <class Table, class T> void price_light(const TileJob<T>& job, Batch<T>
     }
 }
 
+/// radiance · radius of the rows' lights, scaled where floats want that (radiance_scale.h).
+template <class T> void scale_radiance(const TileJob<T>& job, Batch<T>& batch)
+{
+    for (int row = 0; row < batch.rows; ++row) {
+        const LightIndex j = batch.light[static_cast<std::size_t>(row)];
+        if (j < 0) continue;
+        const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
+        batch.radiance.put(
+            row, vec_cast<T>(vec_cast<double>(light.radiance_radius) * job.radiance_scale));
+    }
+}
+
 /// light → to_center, radius, gap2, and radiance · radius in `radiance`. One packed record per row,
 /// in double until the difference is taken. A row without a light gets a black one.
 template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
@@ -109,6 +121,7 @@ template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
                 batch.radiance.put(row, vec_cast<T>(light.radiance_radius));
             }
         });
+    if (job.radiance_scale != 1) scale_radiance(job, batch);
     for (int row = batch.rows; row < (batch.rows + 15) / 16 * 16; ++row) {
         leave_black(row);
         batch.n.put(row, {0, 0, 1}), batch.wo.put(row, {0, 0, 1});
@@ -123,7 +136,7 @@ template <class V, class T> MIS_INLINE Cap<V> cap_of_row(const Batch<T>& batch, 
     return cap_towards(batch.to_center.template get<V>(row), lanes_of<V>(batch.radius, row), gap2);
 }
 
-/// light, u, v → wi, offset, distance, light_pdf, radiance over the pdf of the cap.
+/// light, u, v → wi, offset, cos_theta, distance, light_pdf, radiance over the pdf of the cap.
 template <class V, class Technique, class T> void draw_light(const TileJob<T>& job, Batch<T>& batch)
 {
     fetch_light(job, batch);
@@ -134,10 +147,11 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
         const CapDraw<V> draw = Technique::draw(cap, n, u);
         batch.wi.set(row, draw.wi);
         batch.offset.set(row, draw.offset);
+        set_lanes(batch.cos_theta, row, draw.cos_theta);
         set_lanes(batch.distance, row, draw.distance);
         // As pdf_of_light does it for the other half, to the last bit: or both halves of `maximum`
         // could think the other's density the larger.
-        const V pdf = Technique::pdf(cap, n, V(dot(n, draw.wi)));
+        const V pdf = Technique::pdf(cap, n, draw.cos_theta);
         set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
         // 1/pdf = sin² · inverse_pdf_sin2, taken one sine at a time: the square of a tiny radius is
         // no normal number.
@@ -147,17 +161,17 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
     });
 }
 
-/// light, wi → light_pdf, and the radiance of the light in `radiance`: for a direction that another
-/// technique drew.
+/// light, cos_theta → light_pdf, and the radiance of the light in `radiance`: for a direction that
+/// another technique drew.
 template <class V, class Technique, class T>
 void pdf_of_light(const TileJob<T>& job, Batch<T>& batch)
 {
     fetch_light(job, batch);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Cap<V> cap = cap_of_row<V>(batch, row);
-        const Vec3<V> n = batch.n.template get<V>(row), wi = batch.wi.template get<V>(row);
-        set_lanes(batch.light_pdf, row,
-                  V(lanes_of<V>(batch.probability, row) * Technique::pdf(cap, n, V(dot(n, wi)))));
+        const Vec3<V> n = batch.n.template get<V>(row);
+        const V pdf = Technique::pdf(cap, n, V(lanes_of<V>(batch.cos_theta, row)));
+        set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
         const V inverse_radius = number<V>(1) / cap.radius;
         batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) * inverse_radius));
     });
@@ -218,7 +232,8 @@ template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch
         if (nearest.light != chosen) {
             const Vec3<double> seen =
                 radiance((*job.lights)[static_cast<std::size_t>(nearest.light)]);
-            batch.radiance.put(row, vec_cast<T>(seen * solid_angle(job, chosen, x)));
+            batch.radiance.put(
+                row, vec_cast<T>(seen * (solid_angle(job, chosen, x) * job.radiance_scale)));
             batch.distance[i] = static_cast<T>(nearest.distance);
         }
         batch.radiance.put(row, batch.radiance.at(row) * ratio);

@@ -2,6 +2,7 @@
 
 #include "mis/engine/listed_rays.h"
 #include "mis/engine/rows.h"
+#include "mis/engine/shadow_ray.h"
 #include "mis/math/frame.h"
 #include "mis/sampling/sobol.h"
 #include "mis/trace/intersect.h"
@@ -49,6 +50,7 @@ template <class T> void start_rows(const TileJob<T>& job, Batch<T>& batch)
         batch.n.put(row, {0, 0, 1});
         batch.wo.put(row, {0, 0, 1});
         batch.wi.put(row, {0, 0, 1});
+        batch.cos_theta[i] = T(1);
         batch.u[i] = batch.v[i] = batch.lobe[i] = T(0.5);
     }
 }
@@ -86,6 +88,7 @@ template <class T, class Keep> void keep_rows(Batch<T>& batch, const Keep& keep)
         batch.n.put(to_row, batch.n.at(row));
         batch.wo.put(to_row, batch.wo.at(row));
         batch.wi.put(to_row, batch.wi.at(row));
+        batch.cos_theta[to] = batch.cos_theta[from];
     }
 }
 
@@ -196,7 +199,7 @@ template <class T> void fetch_radiance(const TileJob<T>& job, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
         const auto j = static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)]);
-        batch.radiance.put(row, vec_cast<T>(radiance((*job.lights)[j])));
+        batch.radiance.put(row, vec_cast<T>(radiance((*job.lights)[j]) * job.radiance_scale));
     }
 }
 
@@ -238,18 +241,6 @@ template <class T> void hide_by_lights(const TileJob<T>& job, Batch<T>& batch)
         },
         [&](std::size_t i, bool is_hidden) { hide(left[i], is_hidden); });
 }
-
-namespace {
-
-/// To a light, and no further than to what may touch it: rays start some way off their point and
-/// are traced in float, so what is met that little before the light is not nearer than it.
-ShadowRay shadow_ray(const ShadingPoint& point, const Vec3<float>& wi, double distance)
-{
-    const double off = float_offset(largest_coordinate(vec_cast<double>(point.ray_origin)));
-    return {point.ray_origin, wi, static_cast<float>(std::max(distance * (1 - 1e-6) - off, 0.0))};
-}
-
-}  // namespace
 
 template <class T> void hide_by_surfaces(const TileJob<T>& job, Batch<T>& batch)
 {

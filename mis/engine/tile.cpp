@@ -122,6 +122,7 @@ template <class T> struct Workspace<T>::Run {
             clear_points();
             return;
         }
+        check_stop();
         prepare_points();
         std::fill_n(batch.value.x.begin(), batch.samples, 0.0);
         if (pipeline.colour) {  // else the first channel is all that is read
@@ -130,13 +131,22 @@ template <class T> struct Workspace<T>::Run {
         }
         const std::size_t lights = pipeline.draws_every_light ? job.lights->size() : 1;
         const std::uint32_t light_draws = static_cast<std::uint32_t>(pipeline.light_draws * lights);
-        for (std::uint32_t draw = 0; draw < light_draws; ++draw)
+        for (std::uint32_t draw = 0; draw < light_draws; ++draw) {
+            if (draw % draws_between_looks == 0) check_stop();
             if (!is_below(draw)) run_half(pipeline.light, draw);
+        }
         for (int draw = 0; draw < pipeline.bsdf_draws; ++draw)
             run_half(pipeline.bsdf, static_cast<std::uint32_t>(draw));
         take_in();
         batch.samples = 0;
         batch.rows_are_samples = false;
+    }
+
+    static constexpr std::uint32_t draws_between_looks = 16;
+
+    void check_stop() const
+    {
+        if (job.stop != nullptr) job.stop->check();
     }
 
     /// Does a draw go to one light for all samples, which no point of the tile sees?
@@ -162,7 +172,10 @@ template <class T> struct Workspace<T>::Run {
     void take_in()
     {
         pipeline.sums.find_luminances(batch, luminances);
-        const double share = 1.0 / range.samples_per_observation;
+        if (job.radiance_unit != 1)
+            for (int i = 0; i < batch.samples; ++i)
+                luminances[static_cast<std::size_t>(i)] *= job.radiance_unit;
+        const double share = job.radiance_unit / range.samples_per_observation;
         for (std::size_t first = 0; first < static_cast<std::size_t>(batch.samples);) {
             const std::int32_t slot = batch.sample_point[first];
             std::size_t end = first + 1;
@@ -233,7 +246,8 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     if (!scratch_ || scratch_->size() < scratch_bytes_for(pipeline.table_bytes))
         scratch_ = std::make_unique<Scratch>(scratch_bytes_for(pipeline.table_bytes));
     if (pipeline.reads_all_lights || job.lights->size() <= most_screened_lights)
-        job.columns = fill_light_columns(*job.lights, job.origin, columns_, job.order);
+        job.columns =
+            fill_light_columns(*job.lights, job.origin, columns_, job.order, job.radiance_scale);
     batch_->samples = 0;
     batch_->points = 0;
     batch_->invalid = batch_->shadow_rays = 0;

@@ -55,6 +55,8 @@ public:
     /// Runs a pipeline over a tile. job.points are its points; results, weights (1/(μ² + ε²), or
     /// empty) run along with them, totals along with range.chunks (or empty). Moments are merged in
     /// the order of the samples.
+    /// Throws Stopped once job.stop is up; the results keep what was taken in
+    /// before, so that some points have more samples than others.
     TileTotals run(TileJob<T> job, const Pipeline<T>& pipeline, const SampleRange& range,
                    std::span<PointResult> results, std::span<const double> weights,
                    std::span<ChunkTotals> totals);

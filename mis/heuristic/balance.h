@@ -8,6 +8,7 @@ namespace mis {
 struct BalanceHeuristic {
     static constexpr std::string_view name = "balance";
     static constexpr std::string_view summary = "in proportion to the density";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     template <class T, std::size_t N>
     MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
     {

@@ -12,7 +12,8 @@ namespace mis {
 // How much does each technique count? weight(density, i): the weight of a draw of technique i where
 // the techniques have these densities (n_i · pdf_i, per steradian). Weights sum to 1 over the
 // techniques for all densities in [1e-38, 1e38]; a technique of density 0 has weight 0, of infinite
-// density 1 (shared where both are).
+// density 1 (shared where both are). It may have ranked_by_default(lights, has_lobes), as a policy
+// has (policy/light_choice.h).
 
 // clang-format off
 template <class H, class T>

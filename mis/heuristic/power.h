@@ -8,6 +8,7 @@ namespace mis {
 struct PowerHeuristic {
     static constexpr std::string_view name = "power";
     static constexpr std::string_view summary = "in proportion to the squared density";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     template <class T, std::size_t N>
     MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
     {

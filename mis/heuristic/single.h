@@ -8,6 +8,7 @@ namespace mis {
 struct SingleHeuristic {
     static constexpr std::string_view name = "light";
     static constexpr std::string_view summary = "the light draw alone, no BSDF draw";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     template <class T, std::size_t N>
     MIS_INLINE static T weight(const std::array<T, N>& density, std::size_t i)
     {

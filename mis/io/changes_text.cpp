@@ -154,8 +154,7 @@ std::string summary(const Changes& changes)
 {
     std::string text = wrapped(
         fmt::format("{} compared, {} changed; at most {} that chance alone made any of these. ~: "
-                    "no change is seen; "
-                    "~±9%: if there is one, it is below 9 % (95 %).",
+                    "no change is seen; ~±9%: if there is one, it is below 9 % (95 %).",
                     many(changes.comparisons, "figure"), changes.changed, percent(changes.error)));
     if (times_changed(changes))
         text += wrapped(

@@ -80,6 +80,7 @@ OrderedJson scene_json(const CostSceneReport& s)
                        {"samples", s.reference.samples},
                        {"error", json_figure(s.reference.error)},
                        {"agrees", s.reference.agrees}}}};
+    put_setup(json, s.setup);
     json["strategies"] = OrderedJson::array();
     for (const CostCurveReport& c : s.curves) json["strategies"].push_back(curve_json(c));
     json["crossings"] = OrderedJson::array();

@@ -1,6 +1,7 @@
 #include "mis/io/cost_text.h"
 
 #include "mis/io/text_layout.h"
+#include "mis/words/cost_remarks.h"
 #include "mis/words/numbers.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ std::string heading(const CostSceneReport& s, int threads)
     if (s.copies > 1) text += fmt::format(" of {} copies", s.copies);
     if (s.is_sobol) text += ", each a scrambled Sobol' sequence";
     text += fmt::format(", times on {}, {}{}", many(static_cast<std::size_t>(threads), "thread"),
-                        short_duration(s.seconds), s.partial ? ", stopped early" : "");
+                        short_duration(s.seconds) + setup_text(s.setup),
+                        s.partial ? ", stopped early" : "");
     return wrapped(text);
 }
 
@@ -56,8 +58,7 @@ std::string definition(double epsilon)
     const std::string square =
         epsilon > 0 ? "(reference^2 + " + number(epsilon, 2) + "^2)" : std::string("reference^2");
     return wrapped(
-        "error: the root of the mean, over points and replicates, of "
-        "(estimate - reference)^2/" +
+        "error: the root of the mean, over points and replicates, of (estimate - reference)^2/" +
         square);
 }
 

@@ -1,7 +1,7 @@
 #include "mis/io/explain_report.h"
 
 #include "mis/io/atomic_file.h"
-#include "mis/io/json_parts.h"
+#include "mis/io/json_writer.h"
 #include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
@@ -54,6 +54,27 @@ std::string state(const EffectPlan& effect)
                             : "on";
 }
 
+/// How many points there are, why some are dark, and whose normals lean away.
+std::string points_text(const Explanation& found)
+{
+    std::string text = fmt::format("{} in {}", found.shading_points, many(found.tiles, "tile"));
+    std::string reasons;
+    const auto give = [&](std::size_t count, std::string_view reason) {
+        if (count > 0)
+            reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", count, reason);
+    };
+    give(found.counts.seen_from_below, "seen from below");
+    give(found.counts.inside_light, "inside a light");
+    give(found.counts.facing_no_light, "facing none");
+    if (!reasons.empty()) text += fmt::format("; {} see no light: {}", found.dark_points, reasons);
+    if (found.counts.turned_normals > 0)
+        text += fmt::format(
+            "; of {} the shading normal leans away from the viewer and is turned to him, {} of "
+            "these see no light",
+            found.counts.turned_normals, found.counts.turned_and_dark);
+    return text;
+}
+
 }  // namespace
 
 std::string explanation_text(const Explanation& found)
@@ -75,14 +96,7 @@ std::string explanation_text(const Explanation& found)
             paragraph("picture", fmt::format("{} x {} pixels, of which {} show no surface",
                                              found.width, found.height, found.background_pixels));
     if (found.probes > 0) text += paragraph("probes", std::to_string(found.probes));
-    text += paragraph(
-        "shading points",
-        fmt::format(
-            "{} in {}{}", found.shading_points, many(found.tiles, "tile"),
-            found.dark_points > 0
-                ? fmt::format("; {} see no light: inside one, facing none, or seen from below",
-                              found.dark_points)
-                : ""));
+    text += paragraph("shading points", points_text(found));
     for (const MaterialUse& material : found.materials)
         text += paragraph("material",
                           fmt::format("{} ({}), {}", printable(material.name), material.type,
@@ -99,12 +113,7 @@ std::string explanation_text(const Explanation& found)
 void write_explanation_json(const Explanation& found, const RunHeader& run, const std::string& path)
 {
     OrderedJson effects = OrderedJson::object(), materials = OrderedJson::array();
-    for (const EffectPlan& e : found.effects)
-        effects[e.name] = {{"on", e.on},
-                           {"share", e.share},
-                           {"why", e.why},
-                           {"saved_rays_per_sample", json_figure(e.saved_rays_per_sample)},
-                           {"saved_seconds_per_sample", json_figure(e.saved_seconds_per_sample)}};
+    for (const EffectPlan& e : found.effects) effects[e.name] = described_json(e);
     for (const MaterialUse& m : found.materials)
         materials.push_back(
             {{"name", m.name}, {"type", m.type}, {"shading_points", m.shading_points}});
@@ -122,6 +131,12 @@ void write_explanation_json(const Explanation& found, const RunHeader& run, cons
         {"resolution", json_resolution(found.width, found.height)},
         {"shading_points", found.shading_points},
         {"dark_points", found.dark_points},
+        {"dark_because",
+         {{"seen_from_below", found.counts.seen_from_below},
+          {"inside_light", found.counts.inside_light},
+          {"facing_no_light", found.counts.facing_no_light}}},
+        {"turned_normals", found.counts.turned_normals},
+        {"turned_and_dark", found.counts.turned_and_dark},
         {"background_pixels", found.background_pixels},
         {"tiles", found.tiles},
         {"probes", found.probes},

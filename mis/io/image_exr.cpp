@@ -59,20 +59,31 @@ template <class F> F* function_of_module(const char* name)
 
 }  // namespace
 
+ExrMetadata::ExrMetadata(const std::string& version, const std::string& command, std::uint64_t seed)
+    : all_{{"Software", "mis " + version}}
+{
+    add("command", command).add("seed", std::to_string(seed));
+}
+
+ExrMetadata& ExrMetadata::add(const std::string& key, const std::string& value)
+{
+    all_["mis:" + key] = value;
+    return *this;
+}
+
 void write_exr(const std::filesystem::path& file, const LayeredImage& image,
-               const std::map<std::string, std::string>& metadata)
+               const ExrMetadata& metadata)
 {
     AtomicFile whole(file.string());
     const auto write_layers = function_of_module<WriteExrLayers>("mis_write_exr_layers");
     if (!write_layers) fail(file, dlerror());
     std::string reason;
-    write_layers(whole.temporary_path(), image, metadata, reason);
+    write_layers(whole.temporary_path(), image, metadata.all(), reason);
     if (!reason.empty()) fail(file, reason);
     whole.commit();
 }
 
-void write_exr(const std::filesystem::path& file, const Image& image,
-               const std::map<std::string, std::string>& metadata)
+void write_exr(const std::filesystem::path& file, const Image& image, const ExrMetadata& metadata)
 {
     const auto fill_row = [&image](int y, std::span<float> row) {
         const auto width = static_cast<std::size_t>(image.width);

@@ -1,5 +1,6 @@
 #include "mis/io/json_document.h"
 
+#include "mis/io/json_faults.h"
 #include "mis/io/scene_error.h"
 #include "mis/io/text_file.h"
 #include "mis/scene/text.h"
@@ -8,10 +9,43 @@
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 namespace mis {
 namespace {
+
+/// A text for the parser, which asks the token now and then: a gigabyte of blanks makes no event.
+class StoppableText {
+public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    StoppableText(const char* at, const StopToken& stop) : at_(at), stop_(&stop) {}
+    reference operator*() const { return *at_; }
+    StoppableText& operator++()
+    {
+        constexpr std::uintptr_t often = 1 << 16;
+        if (reinterpret_cast<std::uintptr_t>(++at_) % often == 0) stop_->check();
+        return *this;
+    }
+    StoppableText operator++(int)
+    {
+        const StoppableText before = *this;
+        ++*this;
+        return before;
+    }
+    bool operator==(const StoppableText& other) const { return at_ == other.at_; }
+    bool operator!=(const StoppableText& other) const { return at_ != other.at_; }
+
+private:
+    const char* at_;
+    const StopToken* stop_;
+};
 
 /// Builds the document event by event, so that what nlohmann's own parser lets pass is seen: a key
 /// given twice, a number that rounds to 0, nesting without end.
@@ -161,16 +195,23 @@ private:
         std::string reason(message.substr(start == message.npos ? 0 : start + lead.size()));
         if (echo_start != message.npos)
             reason = message.substr(start + lead.size(), echo_start - start - lead.size());
+        if (const auto fault = known_json_fault(text_, byte, reason))
+            fail_at(fault->byte, fault->found, fault->allowed, fault->remedy);
         const bool token_is_exact =
             reason.find("string") != reason.npos || reason.find("number") != reason.npos;
+        fail_at(byte,
+                byte >= text_.size()
+                    ? "the end of the text"
+                    : in_quotes(token_is_exact && !is_mark(byte) ? token : word_at(byte)),
+                fmt::format("this is not JSON ({})", reason), syntax_remedy(byte));
+    }
+
+    [[noreturn]] void fail_at(std::size_t byte, const std::string& found,
+                              const std::string& allowed, const std::string& remedy) const
+    {
         const auto [line, column] = place_in(text_, byte);
-        throw SceneError(
-            file_.string(),
-            Problem{fmt::format("line {}, column {}", line, column),
-                    byte >= text_.size()
-                        ? "the end of the text"
-                        : in_quotes(token_is_exact && !is_mark(byte) ? token : word_at(byte)),
-                    fmt::format("this is not JSON ({})", reason), syntax_remedy(byte)});
+        throw SceneError(file_.string(), Problem{fmt::format("line {}, column {}", line, column),
+                                                 found, allowed, remedy});
     }
 
     bool is_mark(std::size_t byte) const
@@ -181,14 +222,8 @@ private:
     /// The word around a byte, or the byte if it belongs to none.
     std::string word_at(std::size_t byte) const
     {
-        const auto in_word = [this](std::size_t i) {
-            return i < text_.size() && std::isalnum(static_cast<unsigned char>(text_[i]));
-        };
-        if (!in_word(byte)) return std::string(text_.substr(byte, 1));
-        std::size_t first = byte, end = byte;
-        while (first > 0 && in_word(first - 1)) --first;
-        while (in_word(end)) ++end;
-        return std::string(text_.substr(first, end - first));
+        const bool is_in_word = std::isalnum(static_cast<unsigned char>(text_[byte])) != 0;
+        return std::string(is_in_word ? word_around(text_, byte) : text_.substr(byte, 1));
     }
 
     std::string syntax_remedy(std::size_t byte) const
@@ -197,6 +232,9 @@ private:
         const bool closing = byte < text_.size() && (text_[byte] == '}' || text_[byte] == ']');
         if (closing && last != text_.npos && text_[last] == ',')
             return "Remove the comma before it.";
+        const std::string_view before = text_.substr(0, byte);
+        if (before.substr(before.find_last_of("\r\n") + 1).find("\\\"") != before.npos)
+            return "In \\\" the quote is part of the text. Write paths with /, or each \\ as \\\\.";
         return "Look for a missing comma, quote or bracket there, or just before.";
     }
 
@@ -211,12 +249,14 @@ private:
 }  // namespace
 
 Json parse_json(std::string_view text, const std::filesystem::path& file,
-                std::string_view streamed_list, const ElementSink& sink)
+                std::string_view streamed_list, const ElementSink& sink, const StopToken& stop)
 {
-    require_utf8(text, file);
+    require_utf8(text, file, stop);
     DocumentBuilder builder(text, file, streamed_list, sink);
     constexpr bool strict = true, ignore_comments = true;
-    Json::sax_parse(text, &builder, Json::input_format_t::json, strict, ignore_comments);
+    Json::sax_parse(StoppableText(text.data(), stop),
+                    StoppableText(text.data() + text.size(), stop), &builder,
+                    Json::input_format_t::json, strict, ignore_comments);
     return builder.take_document();
 }
 

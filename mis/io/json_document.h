@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
@@ -19,8 +21,9 @@ using ElementSink =
 /// The document that `text` is: JSON with comments. Throws SceneError for what is no JSON (with
 /// line and column), for a key given twice, a number that a double cannot hold, nesting past
 /// limits::nesting, and bytes that are not UTF-8. The elements of the top-level list
-/// `streamed_list` go to `sink`; an exception of the sink ends the reading.
+/// `streamed_list` go to `sink`; an exception of the sink ends the reading, as Stopped does.
 Json parse_json(std::string_view text, const std::filesystem::path& file,
-                std::string_view streamed_list, const ElementSink& sink);
+                std::string_view streamed_list, const ElementSink& sink,
+                const StopToken& stop = {});
 
 }  // namespace mis

@@ -1,6 +1,6 @@
 #include "mis/io/json_parts.h"
 
-#include "mis/words/numbers.h"
+#include "mis/io/json_writer.h"
 
 #include <cmath>
 
@@ -30,28 +30,18 @@ OrderedJson json_resolution(int width, int height)
 
 OrderedJson json_head(std::string_view format, const RunHead& run)
 {
-    return {{"format", format},
-            {"version", run.version},
-            {"command", run.command},
-            {"seed", run.seed},
-            {"sampler", sampler_name(run.is_sobol)},
-            {"threads", run.threads},
-            {"machine", run.machine},
-            {"instruction_set", run.instruction_set},
-            {"partial", run.partial}};
+    OrderedJson json = OrderedJson::object();
+    JsonWriter writer(json);
+    describe_run(writer, run, format);
+    return json;
 }
 
-OrderedJson json_identity(const Strategy& s)
+void put_setup(OrderedJson& json, const std::optional<SetupSeconds>& setup)
 {
-    return {{"name", name_of(s)},
-            {"policy", json_text_or_null(s.policy)},
-            {"heuristic", json_text_or_null(s.heuristic)},
-            {"technique", s.technique},
-            {"model", s.model == Model::multi ? "multi" : "one-sample"},
-            {"counts", s.chooses_light() ? s.heuristic == "light" ? OrderedJson{s.counts[0], 0}
-                                                                  : OrderedJson(s.counts)
-                                         : OrderedJson{0, 1}}};
+    if (setup) json["setup_seconds"] = described_json(*setup);
 }
+
+OrderedJson json_identity(const Strategy& s) { return described_json(s); }
 
 std::string json_text(const OrderedJson& json)
 {

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ OrderedJson json_interval(const Interval& x);
 
 /// [width, height] in pixels; null without a camera.
 OrderedJson json_resolution(int width, int height);
+
+/// "setup_seconds", where they are known.
+void put_setup(OrderedJson& json, const std::optional<SetupSeconds>& setup);
 
 /// A strategy, as data; "counts" are draws per sample, light and BSDF.
 OrderedJson json_identity(const Strategy& s);

@@ -100,12 +100,10 @@ void write_maps_exr(const Report& report, std::size_t scene, const Maps& maps,
     for (const StrategyReport& s : of.strategies) strategies.push_back(name_of(s.strategy));
     const auto fill_row = [&](int y, std::span<float> row) { layers.fill(y, row); };
     write_exr(path, LayeredImage{maps.width, maps.height, layers.names(), fill_row},
-              {{"Software", "mis " + report.version},
-               {"mis:command", report.command},
-               {"mis:seed", std::to_string(report.seed)},
-               {"mis:scene", of.name},
-               {"mis:strategies", numbered(strategies)},
-               {"mis:policies", numbered(maps.policies)}});
+              ExrMetadata(report.version, report.command, report.seed)
+                  .add("scene", of.name)
+                  .add("strategies", numbered(strategies))
+                  .add("policies", numbered(maps.policies)));
 }
 
 }  // namespace mis

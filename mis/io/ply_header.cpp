@@ -8,141 +8,160 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <sstream>
 #include <utility>
-#include <vector>
 
 namespace mis {
 namespace {
 
 using Words = std::vector<std::string>;
 
-/// 0 for what is no type of number.
-std::uintmax_t bytes_of_type(const std::string& word)
-{
-    static constexpr std::array<std::pair<std::string_view, std::uintmax_t>, 16> types{
-        {{"char", 1},
-         {"uchar", 1},
-         {"short", 2},
-         {"ushort", 2},
-         {"int", 4},
-         {"uint", 4},
-         {"float", 4},
-         {"double", 8},
-         {"int8", 1},
-         {"uint8", 1},
-         {"int16", 2},
-         {"uint16", 2},
-         {"int32", 4},
-         {"uint32", 4},
-         {"float32", 4},
-         {"float64", 8}}};
-    const auto found = std::find_if(types.begin(), types.end(),
-                                    [&](const auto& type) { return type.first == word; });
-    return found == types.end() ? 0 : found->second;
-}
-bool is_number_type(const std::string& word) { return bytes_of_type(word) > 0; }
+constexpr std::array<std::pair<std::string_view, PlyType>, 16> type_names{
+    {{"char", PlyType::int8},
+     {"uchar", PlyType::uint8},
+     {"short", PlyType::int16},
+     {"ushort", PlyType::uint16},
+     {"int", PlyType::int32},
+     {"uint", PlyType::uint32},
+     {"float", PlyType::float32},
+     {"double", PlyType::float64},
+     {"int8", PlyType::int8},
+     {"uint8", PlyType::uint8},
+     {"int16", PlyType::int16},
+     {"uint16", PlyType::uint16},
+     {"int32", PlyType::int32},
+     {"uint32", PlyType::uint32},
+     {"float32", PlyType::float32},
+     {"float64", PlyType::float64}}};
 
-bool is_format(const Words& words)
+constexpr std::array<std::pair<std::string_view, PlyFormat>, 3> format_names{
+    {{"ascii", PlyFormat::ascii},
+     {"binary_little_endian", PlyFormat::binary_little_endian},
+     {"binary_big_endian", PlyFormat::binary_big_endian}}};
+
+template <class Names> auto find_named(const Names& names, std::string_view word)
 {
-    return words.size() == 3 && words[2] == "1.0" &&
-           (words[1] == "ascii" || words[1] == "binary_little_endian" ||
-            words[1] == "binary_big_endian");
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&](const auto& name) { return name.first == word; });
+    return found == names.end() ? std::nullopt : std::optional(found->second);
 }
 
-bool is_property(const Words& words)
+std::optional<PlyProperty> property_of(const Words& words)
 {
-    if (words.size() == 3) return is_number_type(words[1]);
-    return words.size() == 5 && words[1] == "list" && is_number_type(words[2]) &&
-           is_number_type(words[3]);
+    const bool is_list = words.size() == 5 && words[1] == "list";
+    if (words.size() != 3 && !is_list) return {};
+    const auto type = find_named(type_names, words[words.size() - 2]);
+    if (!type) return {};
+    PlyProperty property{words.back(), *type, {}};
+    if (is_list && !(property.count_type = find_named(type_names, words[2]))) return {};
+    return property;
 }
 
-/// Whether "element NAME COUNT" can be true: each one takes a byte at least.
-bool is_element(const Words& words, std::uintmax_t file_size)
+/// "element NAME COUNT"; each one takes a byte at least.
+std::optional<PlyElement> element_of(const Words& words, std::size_t file_size)
 {
-    if (words.size() != 3) return false;
-    std::uintmax_t count = 0;
-    const std::string& text = words[2];
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    return error == std::errc{} && end == text.data() + text.size() && count <= file_size;
+    if (words.size() != 3) return {};
+    PlyElement element{words[1], 0, {}};
+    const char* const text_end = words[2].data() + words[2].size();
+    const auto [end, error] = std::from_chars(words[2].data(), text_end, element.count);
+    if (error != std::errc{} || end != text_end || element.count > file_size) return {};
+    return element;
 }
 
-/// What the body must hold at least, by the header's good lines.
-struct Body {
-    bool is_text = true;
-    std::uintmax_t elements = 0, bytes = 0;  ///< one element is a line of text
-    std::uintmax_t of_element = 0;           ///< how many of the element whose properties follow
-    bool is_face = false;
+template <class Items> bool has_name(const Items& items, std::string_view name)
+{
+    return std::any_of(items.begin(), items.end(),
+                       [&](const auto& item) { return item.name == name; });
+}
 
-    void add(const Words& words)
+/// Reads a header line by line.
+class HeaderReader {
+public:
+    explicit HeaderReader(std::size_t file_size) : file_size_(file_size) {}
+
+    /// False for a line that cannot stand where it stands.
+    bool add(const Words& words)
     {
-        if (words[0] == "format") is_text = words[1] == "ascii";
-        if (words[0] == "element") {
-            of_element = std::stoull(words[2]);
-            is_face = words[1] == "face";
-            elements += of_element;
-        }
-        if (words[0] != "property") return;
-        constexpr std::uintmax_t least_corners = 3;
-        bytes += of_element * (words[1] != "list"
-                                   ? bytes_of_type(words[1])
-                                   : bytes_of_type(words[2]) +
-                                         (is_face ? least_corners * bytes_of_type(words[3]) : 0));
+        if (words.empty()) return false;
+        if (words[0] == "comment" || words[0] == "obj_info") return true;
+        if (words[0] == "format") return add_format(words);
+        if (!has_format_) return false;
+        if (words[0] == "element") return add_element(words);
+        return words[0] == "property" && add_property(words);
     }
+
+    bool has_format() const { return has_format_; }
+    PlyHeader& header() { return header_; }
+
+private:
+    bool add_format(const Words& words)
+    {
+        if (std::exchange(has_format_, true) || words.size() != 3 || words[2] != "1.0")
+            return false;
+        const auto format = find_named(format_names, words[1]);
+        if (format) header_.format = *format;
+        return format.has_value();
+    }
+
+    bool add_element(const Words& words)
+    {
+        const auto element = element_of(words, file_size_);
+        if (!element || has_name(header_.elements, element->name)) return false;
+        header_.elements.push_back(*element);
+        return true;
+    }
+
+    bool add_property(const Words& words)
+    {
+        const auto property = property_of(words);
+        if (!property || header_.elements.empty()) return false;
+        std::vector<PlyProperty>& properties = header_.elements.back().properties;
+        if (has_name(properties, property->name)) return false;
+        properties.push_back(*property);
+        return true;
+    }
+
+    std::size_t file_size_;
+    PlyHeader header_;
+    bool has_format_ = false;
 };
 
-/// What is missing of a body that starts where the stream is; empty if nothing is.
-std::string missing_of(const Body& body, std::ifstream& stream, std::uintmax_t file_size)
+Words words_of(std::string_view line)
 {
-    if (!body.is_text) {
-        const std::uintmax_t there = file_size - static_cast<std::uintmax_t>(stream.tellg());
-        return there >= body.bytes ? "" : fmt::format("{} of at least {} bytes", there, body.bytes);
-    }
-    std::uintmax_t lines = 0;
-    for (std::string line; lines < body.elements && std::getline(stream, line);)
-        lines += line.find_first_not_of(" \t\r") != std::string::npos ? 1 : 0;
-    return lines == body.elements ? "" : fmt::format("{} of {} lines", lines, body.elements);
-}
-
-bool is_header_line(const Words& words, std::uintmax_t file_size)
-{
-    if (words.empty()) return false;
-    if (words[0] == "comment" || words[0] == "obj_info") return true;
-    if (words[0] == "format") return is_format(words);
-    if (words[0] == "element") return is_element(words, file_size);
-    return words[0] == "property" && is_property(words);
+    std::istringstream text{std::string(line)};
+    Words words;
+    for (std::string word; text >> word;) words.push_back(word);
+    return words;
 }
 
 }  // namespace
 
-void require_ply_header(const std::filesystem::path& file)
+std::size_t bytes_of(PlyType type)
 {
-    constexpr int most_lines = 10'000;
-    const std::uintmax_t file_size = std::filesystem::file_size(file);
-    std::ifstream stream(file, std::ios::binary);
-    std::string line;
-    Body body;
-    for (int number = 1; number <= most_lines && std::getline(stream, line); ++number) {
-        std::istringstream text(line);
-        Words words;
-        for (std::string word; text >> word;) words.push_back(word);
-        if (number > 1 && words == Words{"end_header"}) {
-            const std::string missing = missing_of(body, stream, file_size);
-            if (missing.empty()) return;
+    constexpr std::array<std::size_t, 8> bytes{1, 1, 2, 2, 4, 4, 4, 8};
+    return bytes[static_cast<std::size_t>(type)];
+}
+
+PlyHeader read_ply_header(ByteSource& source, const std::filesystem::path& file)
+{
+    constexpr std::size_t most_lines = 10'000;
+    HeaderReader reader(source.size());
+    PlyHeader& header = reader.header();
+    const std::string_view start = source.peek(5);
+    if (start.substr(0, 4) == "ply\r" && start != "ply\r\n") header.line_end = '\r';
+    std::string_view line;
+    while (header.lines < most_lines && source.line(line, header.line_end)) {
+        const Words words = words_of(line);
+        const bool is_first = header.lines++ == 0;
+        if (!is_first && reader.has_format() && words == Words{"end_header"}) return header;
+        if (is_first ? words != Words{"ply"} : !reader.add(words))
             throw SceneError(
                 file.string(),
-                Problem{"", "a PLY file that ends early: " + missing + " after its header",
-                        "all elements that the header counts follow it", "Write the file anew."});
-        }
-        const bool is_good = number == 1 ? words == Words{"ply"} : is_header_line(words, file_size);
-        if (!is_good)
-            throw SceneError(
-                file.string(),
-                Problem{"", fmt::format("{} in line {} of its header", in_quotes(line), number),
-                        "a PLY header has ply, format, comment, element and property lines",
+                Problem{"",
+                        fmt::format("{} in line {} of its header", in_quotes(line), header.lines),
+                        "a PLY header has the lines ply, format, comment, element and property; "
+                        "each name stands once, and a count fits the file",
                         "Mend the file."});
-        if (number > 1) body.add(words);
     }
     throw SceneError(file.string(),
                      Problem{"", "a PLY header without an end",

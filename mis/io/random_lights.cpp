@@ -71,13 +71,15 @@ private:
 
 }  // namespace
 
-void append_random_lights(const RandomLights& lights, Lights& to)
+void append_random_lights(const RandomLights& lights, Lights& to, const StopToken& stop)
 {
     SplitMix64 bits(lights.seed);
     const LogUniform radius(lights.radius), power(lights.power);
     const auto& [low, high] = lights.box;
     to.reserve(to.size() + lights.count);
+    StopEvery check(stop, 1 << 14);
     for (std::size_t i = 0; i < lights.count; ++i) {
+        check();
         const double x = uniform_between(low.x, high.x, bits());
         const double y = uniform_between(low.y, high.y, bits());
         const double z = uniform_between(low.z, high.z, bits());

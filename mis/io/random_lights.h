@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/scene/light.h"
 
 #include <array>
@@ -18,7 +19,7 @@ struct RandomLights {
 
 /// Appends `lights.count` grey lights: position uniform in the box, radius and power log-uniform,
 /// all independent. Reproducible to the last bit on every machine: docs/scene-format.md, "Random
-/// lights", states the generator.
-void append_random_lights(const RandomLights& lights, Lights& to);
+/// lights", states the generator. Throws Stopped.
+void append_random_lights(const RandomLights& lights, Lights& to, const StopToken& stop = {});
 
 }  // namespace mis

@@ -6,67 +6,75 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace mis {
 namespace {
 
-std::string place_cell(int rank) { return rank > 0 ? fmt::format("{}", rank) : ""; }
+/// Adds a cell for every field of a strategy that it is told of and that the table has.
+class RowWriter {
+public:
+    explicit RowWriter(CsvRow& row) : row_(row) {}
 
-void add(CsvRow& row, const std::string& column, const Interval& x)
-{
-    row.push_back({column, csv_field(x.value)});
-    row.push_back({column + "_low", csv_field(x.low)});
-    row.push_back({column + "_high", csv_field(x.high)});
-}
+    void text(const Field& f, const std::string& x) { put(f, csv_field(x)); }
+    void text_or_null(const Field& f, const std::string& x) { put(f, csv_field(x)); }
+    void flag(const Field& f, bool x) { put(f, x ? "true" : "false"); }
+    template <class Count> void count(const Field& f, const Count& x)
+    {
+        put(f, fmt::format("{}", x));
+    }
+    void place(const Field& f, int x) { put(f, x > 0 ? fmt::format("{}", x) : ""); }
+    void figure(const Field& f, double x) { put(f, csv_field(x)); }
+    void size(const Field& f, double x) { put(f, csv_field(x)); }
+    void interval(const Field& f, const Interval& x)
+    {
+        put(f, csv_field(x.value));
+        put(f, csv_field(x.low), "_low");
+        put(f, csv_field(x.high), "_high");
+    }
+    void value_and_interval(const Field& f, const Interval& x) { interval(f, x); }
+    template <class E, class Names> void one_of(const Field& f, E x, const Names& names)
+    {
+        put(f, names[static_cast<std::size_t>(x)]);
+    }
+    void names(const Field& f, const std::vector<std::string>& x)
+    {
+        put(f, csv_field(fmt::format("{}", fmt::join(x, " "))));
+    }
+    void strategy_name(const Field& f, const Strategy& s) { put(f, csv_field(name_of(s))); }
+    void draws(const Field&, const Strategy& s)
+    {
+        const auto [light, bsdf] = draws_of(s);
+        row_.push_back({"light_draws", fmt::format("{}", light)});
+        row_.push_back({"bsdf_draws", fmt::format("{}", bsdf)});
+    }
+    void reason(const Field& f, const Reason& why) { put(f, csv_field(reason_words(why))); }
 
-std::string joined(const std::vector<std::string>& names)
-{
-    return fmt::format("{}", fmt::join(names, " "));
-}
+    // A table has no room for what is many.
+    template <class T> void sizes(const Field&, const T&) {}
+    template <class T> void object(const Field&, const T&) {}
+    template <class T> void maybe(const Field&, const T&) {}
+    template <class T> void list(const Field&, const T&) {}
+
+private:
+    void put(const Field& f, std::string cell, std::string_view end = {})
+    {
+        if (f.column.empty()) return;
+        row_.push_back({std::string(f.column) + std::string(end), std::move(cell)});
+    }
+
+    CsvRow& row_;
+};
 
 CsvRow row_of(const SceneReport& scene, const StrategyReport& s)
 {
-    const Strategy& strategy = s.strategy;
-    const bool light_alone = strategy.heuristic == "light";
-    CsvRow row{
-        {"scene", csv_field(scene.name)},
-        {"file", csv_field(scene.file)},
-        {"strategy", csv_field(name_of(strategy))},
-        {"policy", csv_field(strategy.policy)},
-        {"heuristic", csv_field(strategy.heuristic)},
-        {"technique", csv_field(strategy.technique)},
-        {"model", strategy.model == Model::multi ? "multi" : "one-sample"},
-        {"light_draws", fmt::format("{}", strategy.chooses_light() ? strategy.counts[0] : 0)},
-        {"bsdf_draws", fmt::format("{}", !strategy.chooses_light() ? 1
-                                         : light_alone             ? 0
-                                                                   : strategy.counts[1])},
-        {"status", name_of(s.status)},
-        {"reason", csv_field(reason_words(s.reason))},
-        {"exact", s.exact ? "true" : "false"},
-        {"rank", place_cell(s.rank)},
-        {"rank_low", place_cell(s.rank_low)},
-        {"rank_high", place_cell(s.rank_high)},
-        {"tied_with", csv_field(joined(s.tied_with))},
-        {"rank_by_efficiency", place_cell(s.rank_by_efficiency)},
-        {"rank_by_efficiency_low", place_cell(s.rank_by_efficiency_low)},
-        {"rank_by_efficiency_high", place_cell(s.rank_by_efficiency_high)},
-        {"samples", fmt::format("{}", s.samples)},
-        {"mean", csv_field(s.mean)},
-        {"mean_se", csv_field(s.mean_se)},
-        {"bias_p_value", csv_field(s.bias_p_value)}};
-    add(row, "variance", s.variance);
-    add(row, "relative_variance", s.relative_variance);
-    row.push_back({"rare_share", csv_field(s.rare_share)});
-    row.push_back({"effective_samples", csv_field(s.effective_samples)});
-    add(row, "seconds_per_point", s.seconds_per_point);
-    add(row, "seconds_per_sample", s.seconds_per_sample);
-    row.push_back({"rays_per_sample", csv_field(s.rays_per_sample)});
-    add(row, "efficiency", s.efficiency);
-    add(row, "seconds_to_1_percent", s.seconds_to_1_percent);
-    row.push_back(
-        {"estimated_seconds", s.status == Status::not_run ? csv_field(s.estimated_seconds) : ""});
-    row.push_back({"invalid_samples", fmt::format("{}", s.invalid_samples)});
+    CsvRow row{{"scene", csv_field(scene.name)}, {"file", csv_field(scene.file)}};
+    RowWriter writer(row);
+    describe(writer, s);
     return row;
 }
 
@@ -75,9 +83,7 @@ CsvRow row_of(const SceneReport& scene, const StrategyReport& s)
 std::string report_csv(const Report& report)
 {
     std::string text;
-    StrategyReport any;
-    any.strategy = {.policy = "", .heuristic = "", .technique = "brdf"};
-    append_csv_line(text, row_of({}, any), &CsvCell::column);
+    append_csv_line(text, row_of({}, {}), &CsvCell::column);
     for (const SceneReport& scene : report.scenes)
         for (const StrategyReport& s : scene.strategies)
             append_csv_line(text, row_of(scene, s), &CsvCell::value);

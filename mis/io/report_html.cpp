@@ -15,9 +15,10 @@ namespace mis {
 namespace {
 
 /// The page's script, in this order: each file uses what stands before it.
-constexpr std::array script_files{
-    "base.js",   "figures.js", "table.js",  "plot.js",  "dots.js",   "error_time.js", "stages.js",
-    "decode.js", "colours.js", "viewer.js", "pixel.js", "scenes.js", "honesty.js",    "main.js"};
+constexpr std::array script_files{"base.js",   "figures.js", "table.js",      "marks.js",
+                                  "plot.js",   "dots.js",    "error_time.js", "stages.js",
+                                  "decode.js", "colours.js", "viewer.js",     "pixel.js",
+                                  "scenes.js", "honesty.js", "main.js"};
 
 /// Scripts and styles run where they carry this number alone, which no scene's author can know.
 std::string fresh_nonce()

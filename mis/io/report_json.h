@@ -3,12 +3,8 @@
 #include "mis/report/report.h"
 
 #include <string>
-#include <string_view>
 
 namespace mis {
-
-/// What the key "format" of a report says.
-inline constexpr std::string_view report_format = "mis-report/1";
 
 /// The report as `mis-report/1` (docs/report-format.md). Numbers keep all their digits; what is not
 /// known or not finite is null. Ends with a line feed.

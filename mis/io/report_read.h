@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/report/report.h"
 
 #include <filesystem>
@@ -7,12 +8,14 @@
 
 namespace mis {
 
-/// The report in a file that report_json wrote (`mis-report/1`, docs/report-format.md). null is
-/// NaN: not known. Keys that are not known are passed over, as later versions may add some;
-/// sentences are not read, and neither is what they alone say (first_invalid). Throws SceneError.
-Report read_report(const std::filesystem::path& file);
+/// The report in a file that report_json wrote (`mis-report/1`, docs/report-format.md): report_json
+/// of it is that file again. null is NaN: not known. Keys that are not known are passed over, as
+/// later versions may add some; sentences are not read, as they follow from the figures. Throws
+/// SceneError and Stopped.
+Report read_report(const std::filesystem::path& file, const StopToken& stop = {});
 
 /// The same of a text. `file` is for messages.
-Report parse_report(std::string_view text, const std::filesystem::path& file);
+Report parse_report(std::string_view text, const std::filesystem::path& file,
+                    const StopToken& stop = {});
 
 }  // namespace mis

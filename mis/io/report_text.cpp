@@ -24,6 +24,7 @@ std::string heading(const SceneReport& scene, const Report& report)
                         many(static_cast<std::size_t>(scene.replicates), "replicate"));
     if (report.is_sobol) text += fmt::format(", Sobol' sequences of {:.0f} samples", report.at);
     if (scene.seconds > 0) text += fmt::format(", {}", short_duration(scene.seconds));
+    text += setup_text(scene.setup);
     text += scene.partial ? ", stopped early" : scene.settled ? ", settled" : ", not settled";
     return wrapped(text);
 }

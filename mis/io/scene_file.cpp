@@ -15,6 +15,11 @@ std::filesystem::path referenced_file(const JsonNode& name)
         "a path is relative to the scene file's folder, and names a file that exists";
     if (written.empty() || written.find('\0') != written.npos)
         name.fail_value(allowed, "Write the name of a file.");
+    if (std::any_of(written.begin(), written.end(), [](char c) { return c > '\0' && c < ' '; }))
+        name.fail(
+            in_quotes(written) + ", which has a control character in it", allowed,
+            "In a string \\t and the like are one character. Write paths with /, or each \\ as "
+            "\\\\.");
     const std::filesystem::path file = std::filesystem::path(name.file()).parent_path() / written;
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(file, error);

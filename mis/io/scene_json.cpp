@@ -45,16 +45,18 @@ Probe read_probe(const JsonNode& entry, const std::vector<Material>& materials)
 
 /// Calls `read` for each element of the member `key`, if there is one.
 template <class Read>
-void for_each_element(const JsonNode& root, std::string_view key, const Read& read)
+void for_each_element(const JsonNode& root, std::string_view key, const StopToken& stop,
+                      const Read& read)
 {
     const std::optional<JsonNode> list = root.find(key);
     if (!list) return;
-    for (std::size_t i = 0; i < list->size(); ++i) read(list->element(i));
+    StopEvery check(stop, 1024);
+    for (std::size_t i = 0; i < list->size(); ++i) check(), read(list->element(i));
 }
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::filesystem::path& file)
+Scene parse_scene(std::string_view text, const std::filesystem::path& file, const StopToken& stop)
 {
     Scene scene;
     scene.file = file.string();
@@ -64,9 +66,9 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file)
             if (const auto format = root.find("format"))
                 require_format(*format);  // another format's lights may be others
         const JsonNode lights = root["lights"];
-        append_lights(lights.at(index, entry), scene.lights);
+        append_lights(lights.at(index, entry), scene.lights, stop);
     };
-    const Json document = parse_json(text, file, "lights", add_lights);
+    const Json document = parse_json(text, file, "lights", add_lights, stop);
     const JsonNode root(document, scene.file);
     root.require_object();
     require_format(root["format"]);
@@ -76,22 +78,22 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& file)
     scene.name = name ? name->string() : file.stem().string();
     if (const auto camera = root.find("camera")) scene.camera = read_camera(*camera);
     if (const auto materials = root.find("materials")) scene.materials = read_materials(*materials);
-    for_each_element(root, "probes", [&](const JsonNode& probe) {
+    for_each_element(root, "probes", stop, [&](const JsonNode& probe) {
         scene.probes.push_back(read_probe(probe, scene.materials));
     });
-    for_each_element(root, "surfaces", [&](const JsonNode& surface) {
-        scene.surfaces.push_back(read_surface(surface, scene.materials));
+    for_each_element(root, "surfaces", stop, [&](const JsonNode& surface) {
+        scene.surfaces.push_back(read_surface(surface, scene.materials, stop));
     });
-    for_each_element(root, "lights",
+    for_each_element(root, "lights", stop,
                      [](const JsonNode&) {});  // an array; its elements were read on the way
-    if (const std::optional<Problem> problem = find_problem(scene))
+    if (const std::optional<Problem> problem = find_problem(scene, stop))
         throw SceneError(scene.file, *problem);
     return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file)
+Scene read_scene(const std::filesystem::path& file, const StopToken& stop)
 {
-    return parse_scene(read_text_file(file, "scene"), file);
+    return parse_scene(read_text_file(file, "scene", stop), file, stop);
 }
 
 }  // namespace mis

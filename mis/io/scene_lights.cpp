@@ -50,10 +50,10 @@ void append_sphere(const JsonNode& entry, Lights& to)
                           : make_light_of_power(center, radius, emitted));
 }
 
-void append_table(const JsonNode& entry, Lights& to)
+void append_table(const JsonNode& entry, Lights& to, const StopToken& stop)
 {
     entry.require_keys(scene_keys::table);
-    append_light_table(referenced_file(entry["file"]), to);
+    append_light_table(referenced_file(entry["file"]), to, stop);
 }
 
 std::array<double, 2> read_range(const JsonNode& range)
@@ -79,7 +79,7 @@ std::array<Vec3<double>, 2> read_box(const JsonNode& box)
     return corners;
 }
 
-void append_random(const JsonNode& entry, Lights& to)
+void append_random(const JsonNode& entry, Lights& to, const StopToken& stop)
 {
     entry.require_keys(scene_keys::random);
     const RandomLights lights{
@@ -101,19 +101,19 @@ void append_random(const JsonNode& entry, Lights& to)
         for (const double power : lights.power)
             require_valid(entry, lights.box[0], radius, Emission::power, Vec3<double>(power));
     require_room(entry["count"], lights.count, to);
-    append_random_lights(lights, to);
+    append_random_lights(lights, to, stop);
 }
 
 }  // namespace
 
-void append_lights(const JsonNode& entry, Lights& to)
+void append_lights(const JsonNode& entry, Lights& to, const StopToken& stop)
 {
     entry.require_object();
     const std::optional<JsonNode> type = entry.find("type");
     const std::string_view name = type ? read_type(*type, scene_keys::light_types) : "sphere";
     if (name == "sphere") append_sphere(entry, to);
-    else if (name == "table") append_table(entry, to);
-    else append_random(entry, to);
+    else if (name == "table") append_table(entry, to, stop);
+    else append_random(entry, to, stop);
 }
 
 }  // namespace mis

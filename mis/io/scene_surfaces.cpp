@@ -54,17 +54,19 @@ Transform read_transform(const JsonNode& entry)
             translate ? translate->vector() : Vec3<double>(0)};
 }
 
-Mesh read_mesh_surface(const JsonNode& entry)
+Mesh read_mesh_surface(const JsonNode& entry, const StopToken& stop)
 {
+    stop.check();
     entry.require_keys(scene_keys::mesh);
     const JsonNode name = entry["file"];
     const std::optional<JsonNode> transform = entry.find("transform");
     const Transform placed = transform ? read_transform(*transform) : Transform();
     const std::filesystem::path file = referenced_file(name);
     try {
-        return read_mesh(file, placed);
+        return read_mesh(file, placed, stop);
     } catch (const SceneError& error) {
         const Problem& problem = error.problem;
+        if (!problem.pointer.empty()) throw;  // with the mesh's own name, line and column
         name.fail(in_quotes(name.string()) + ", " + problem.found, problem.allowed, problem.remedy);
     }
 }
@@ -109,7 +111,8 @@ int read_material_name(const JsonNode& name, const std::vector<Material>& materi
               did_you_mean(written, known, "Add it to \"materials\"."));
 }
 
-Surface read_surface(const JsonNode& entry, const std::vector<Material>& materials)
+Surface read_surface(const JsonNode& entry, const std::vector<Material>& materials,
+                     const StopToken& stop)
 {
     const std::string_view type = read_type(entry["type"], scene_keys::surface_types);
     const auto place = [&](auto shape) {
@@ -117,7 +120,7 @@ Surface read_surface(const JsonNode& entry, const std::vector<Material>& materia
     };
     if (type == "sphere") return place(read_sphere(entry));
     if (type == "quad") return place(read_quad(entry));
-    return place(read_mesh_surface(entry));
+    return place(read_mesh_surface(entry, stop));
 }
 
 }  // namespace mis

@@ -170,4 +170,13 @@ std::string TextTable::text() const
     return text;
 }
 
+std::string setup_text(const std::optional<SetupSeconds>& setup)
+{
+    constexpr double short_time = 0.5;  // which nobody has waited for
+    if (!setup || setup->all() < short_time) return "";
+    return fmt::format(" after {} of reading and {} of building trees",
+                       short_duration(setup->reading),
+                       short_duration(setup->surfaces + setup->lights));
+}
+
 }  // namespace mis

@@ -3,6 +3,7 @@
 #include "mis/report/report.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,5 +58,8 @@ private:
 
     std::vector<std::vector<std::string>> heads_, rows_;  ///< a row of three cells is a remark
 };
+
+/// " after … of reading and … of building trees"; empty where that is short.
+std::string setup_text(const std::optional<SetupSeconds>& setup);
 
 }  // namespace mis

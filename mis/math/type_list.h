@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <type_traits>
 
 namespace mis {
@@ -12,6 +13,14 @@ template <class... Ts> struct TypeList {
 template <class... Ts, class F> constexpr void for_each_type(TypeList<Ts...>, F&& f)
 {
     (f.template operator()<Ts>(), ...);
+}
+
+/// Calls `f.template operator()<T>()` for the type whose T::name that is. Returns whether there is
+/// one.
+template <class... Ts, class F>
+constexpr bool visit_named(TypeList<Ts...>, std::string_view name, F&& f)
+{
+    return ((Ts::name == name && (f.template operator()<Ts>(), true)) || ...);
 }
 
 namespace detail {

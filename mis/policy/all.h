@@ -10,6 +10,7 @@ class AllPolicy {
 public:
     static constexpr std::string_view name = "all";
     static constexpr std::string_view summary = "one draw for every light";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     static constexpr bool draws_every_light = true, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
     static bool keeps_tables(const Light&, const Light&) { return true; }

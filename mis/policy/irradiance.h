@@ -12,6 +12,7 @@ public:
     static constexpr std::string_view summary =
         "in proportion to radiance x irradiance of the cap above the horizon";
     static constexpr bool draws_every_light = false, reads_all_lights = true;
+    static constexpr bool weighs_by_irradiance = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {
         return weight_table_bytes<IrradiancePolicy>(lights);

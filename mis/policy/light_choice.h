@@ -87,7 +87,11 @@ concept ChoiceTable = requires(const Table& table, std::uint64_t bits, LightInde
 /// light (`all`); choose() is not asked. reads_all_lights: false where prepare() does not look
 /// at the columns, which then need not be there: with one table for every point, or a hierarchy.
 /// It may have keeps_tables(before, after): does it stay as it is when one light becomes another?
-/// And draws_go_together: its table has choose_each(), for many draws at once.
+/// And weighs_by_irradiance: on a surface without a lobe, P is in proportion to Y(L)·E, which is a
+/// promise that some strategies have no variance. And draws_go_together: its table has
+/// choose_each(), for many draws at once.
+/// And ranked_by_default(lights, has_lobes): is it ranked where no policy is named, on a scene of
+/// so many lights, on whose surfaces some BSDF has a lobe or none has? Left out: never.
 // clang-format off
 template <class P, class T>
 concept LightChoice = std::constructible_from<P, const Lights&> &&

@@ -41,6 +41,7 @@ double median(const Lights& lights, int axis)
 struct LightTree::Builder {
     LightTree& tree;
     const Lights& all;
+    const StopToken& stop;
     double total_power = 0;
     LargeVector<TreeItem> items = {};
 
@@ -85,6 +86,7 @@ struct LightTree::Builder {
         node.child = node.is_lowest != 0 ? parts[0].first / group_size : first_child;
         std::array<Description, width> described_parts;  // NOLINT: filled as far as it is read
         for (std::uint32_t k = 0; k < count; ++k) {
+            stop.check();
             node.first[k] = parts[k].first / group_size;
             if (node.is_lowest != 0) fill_lights(node.child + k, parts[k]);
             else build(node.child + k, parts[k]);
@@ -101,6 +103,7 @@ struct LightTree::Builder {
             found[count++] = range;
             return;
         }
+        stop.check();
         const std::uint32_t left = parts / 2;
         const auto groups =
             static_cast<std::uint32_t>(std::uint64_t{range.groups()} * left / parts);
@@ -212,10 +215,10 @@ struct LightTree::Builder {
     }
 };
 
-LightTree::LightTree(const Lights& lights)
+LightTree::LightTree(const Lights& lights, const StopToken& stop)
 {
     if (lights.empty()) return;
-    Builder{*this, lights}.run();
+    Builder{*this, lights, stop}.run();
     nodes_.shrink_to_fit();
 }
 

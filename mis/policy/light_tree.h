@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/scene/light.h"
 
 #include <array>
@@ -18,15 +19,17 @@ class LightTree {
 public:
     static constexpr std::size_t width = 16;
 
-    /// Takes what it needs of the lights. O(M log M).
-    explicit LightTree(const Lights& lights);
+    /// Takes what it needs of the lights. O(M log M), wherever they stand. Throws
+    /// Stopped.
+    explicit LightTree(const Lights& lights, const StopToken& stop = {});
 
     template <class N> using Row = std::array<N, width>;
 
     /// Up to 16 lights. The places that are left over hold black ones.
     struct alignas(64) LightGroup {
         Row<double> x, y, z, radius;
-        Row<double> luminance_radius;  ///< such that times radius it is the share of the power
+        Row<double> luminance_radius;  ///< such that times radius it is the share of
+                                       ///< the power
         Row<LightIndex> light;
     };
     /// Up to 16 parts, each with the group that it is made of. Floats, relative to a place among

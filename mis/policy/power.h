@@ -12,6 +12,7 @@ class PowerPolicy {
 public:
     static constexpr std::string_view name = "power";
     static constexpr std::string_view summary = "in proportion to emitted power, blind to distance";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     static constexpr bool draws_every_light = false, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
     static bool keeps_tables(const Light& before, const Light& after)

@@ -10,6 +10,7 @@ public:
     static constexpr std::string_view name = "solid-angle";
     static constexpr std::string_view summary =
         "in proportion to the solid angle, blind to radiance";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr std::size_t table_bytes(std::size_t lights)
     {

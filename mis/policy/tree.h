@@ -32,7 +32,10 @@ public:
                Scratch::bytes_for<OpenGroup<double>>(most_open);
     }
 
-    explicit TreePolicy(const Lights& lights) : tree_(std::make_shared<const LightTree>(lights)) {}
+    explicit TreePolicy(const Lights& lights, const StopToken& stop = {})
+        : tree_(std::make_shared<const LightTree>(lights, stop))
+    {
+    }
 
     const LightTree& tree() const { return *tree_; }
 

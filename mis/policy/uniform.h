@@ -9,6 +9,7 @@ class UniformPolicy {
 public:
     static constexpr std::string_view name = "uniform";
     static constexpr std::string_view summary = "alike from all lights, 1/M";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     static constexpr bool draws_every_light = false, reads_all_lights = false;
     static constexpr std::size_t table_bytes(std::size_t) { return 0; }
     static bool keeps_tables(const Light&, const Light&) { return true; }

@@ -52,13 +52,15 @@ bool is_light_below(const Light& light, const Probe& probe)
     return dot(light.center - probe.position, probe.normal) <= -light.radius;
 }
 
-bool could_hide(const Face& face, const Scene& scene, const Probe& probe)
+bool could_hide(const Face& face, const Scene& scene, const Probe& probe, StopEvery& check)
 {
     if (is_below_horizon(face, probe)) return false;
-    for (const Light& light : scene.lights)
+    for (const Light& light : scene.lights) {
+        check();
         if (!is_light_below(light, probe) && !is_beyond(face, probe, light) &&
             !has_both_on_one_side(face, probe, light))
             return true;
+    }
     return false;
 }
 
@@ -72,8 +74,9 @@ bool could_hide(const Face& face, const Scene& scene, const Probe& probe)
 
 }  // namespace
 
-void refuse_blockers(const Scene& scene, const Probe& probe)
+void refuse_blockers(const Scene& scene, const Probe& probe, const StopToken& stop)
 {
+    StopEvery check(stop, 4096);
     for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
         const auto& shape = scene.surfaces[s].shape;
         const auto rounding = [&](const Vec3<double>& corner) {
@@ -86,13 +89,14 @@ void refuse_blockers(const Scene& scene, const Probe& probe)
                              quad->corner + quad->edges[1]},
                             4,
                             std::max(rounding(quad->corner), rounding(opposite))};
-            if (could_hide(face, scene, probe)) refuse(s, "quad");
+            if (could_hide(face, scene, probe, check)) refuse(s, "quad");
         } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
             for (const auto& [a, b, c] : mesh->triangles) {
+                check();
                 const Face face{{mesh->positions[a], mesh->positions[b], mesh->positions[c]},
                                 3,
                                 rounding(mesh->positions[a])};
-                if (could_hide(face, scene, probe)) refuse(s, "mesh");
+                if (could_hide(face, scene, probe, check)) refuse(s, "mesh");
             }
         }
     }

@@ -3,6 +3,7 @@
 #include "mis/bsdf/any_bsdf.h"
 #include "mis/math/frame.h"
 #include "mis/policy/registry.h"
+#include "mis/scene/named.h"
 #include "mis/technique/registry.h"
 
 #include <algorithm>
@@ -78,15 +79,8 @@ template <class P> PolicyView view_of(const Scene& scene, const Probe& probe)
 
 PolicyView policy_at(std::string_view policy, const Scene& scene, const Probe& probe)
 {
-    PolicyView view;
-    bool is_known = false;
-    for_each_type(Policies{}, [&]<class P>() {
-        if (P::name != policy) return;
-        view = view_of<P>(scene, probe);
-        is_known = true;
-    });
-    if (!is_known) throw std::out_of_range("no policy is called " + std::string(policy));
-    return view;
+    return require_named(Policies{}, "policy", policy,
+                         [&]<class P>() { return view_of<P>(scene, probe); });
 }
 
 bool LightTechniqueView::keeps_above(const Ball& ball, const Vec3<double>& n) const
@@ -97,30 +91,27 @@ bool LightTechniqueView::keeps_above(const Ball& ball, const Vec3<double>& n) co
 
 LightTechniqueView light_technique(std::string_view technique)
 {
-    LightTechniqueView view;
-    for_each_type(Techniques{}, [&]<class K>() {
-        if constexpr (K::chooses_light) {
-            if (K::name == technique)
-                view = {K::sums_lights, [](const Cap<double>& cap, const Vec3<double>& n,
-                                           double cos_theta) { return K::pdf(cap, n, cos_theta); }};
-        }
-    });
+    const auto view_of_it = []<class K>() {
+        LightTechniqueView view;
+        if constexpr (K::chooses_light)
+            view = {K::sums_lights, [](const Cap<double>& cap, const Vec3<double>& n,
+                                       double cos_theta) { return K::pdf(cap, n, cos_theta); }};
+        return view;
+    };
+    const auto view = require_named(Techniques{}, "technique", technique, view_of_it);
     if (view.pdf == nullptr)
-        throw std::out_of_range("no technique draws a light as " + std::string(technique));
+        throw std::out_of_range(std::string(technique) + " draws towards no light");
     return view;
 }
 
 DirectionPdf direction_technique(std::string_view technique)
 {
-    DirectionPdf pdf = nullptr;
-    for_each_type(Techniques{}, [&]<class K>() {
-        if constexpr (!K::chooses_light) {
-            if (K::name == technique)
-                pdf = [](double bsdf_pdf, const Vec3<double>& wi) { return K::pdf(bsdf_pdf, wi); };
-        }
-    });
-    if (pdf == nullptr)
-        throw std::out_of_range("no technique draws a direction as " + std::string(technique));
+    const auto pdf_of_it = []<class K>() -> DirectionPdf {
+        if constexpr (K::chooses_light) return nullptr;
+        else return [](double bsdf_pdf, const Vec3<double>& wi) { return K::pdf(bsdf_pdf, wi); };
+    };
+    const DirectionPdf pdf = require_named(Techniques{}, "technique", technique, pdf_of_it);
+    if (pdf == nullptr) throw std::out_of_range(std::string(technique) + " draws towards a light");
     return pdf;
 }
 

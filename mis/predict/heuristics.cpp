@@ -1,11 +1,9 @@
 #include "mis/predict/heuristics.h"
 
 #include "mis/heuristic/registry.h"
+#include "mis/scene/named.h"
 
 #include <cmath>
-#include <map>
-#include <stdexcept>
-#include <string>
 
 namespace mis {
 
@@ -49,24 +47,14 @@ void weigh(const NodeColumn& light, const NodeColumn& bsdf, NodeColumn& light_we
     }
 }
 
-std::map<std::string, WeightRule, std::less<>> all_rules()
-{
-    std::map<std::string, WeightRule, std::less<>> rules;
-    for_each_type(Heuristics{}, [&]<class H>() {
-        rules[std::string(H::name)] = {weigh<H>, jumps_of<H>()};
-    });
-    return rules;
-}
-
 }  // namespace
 
 const WeightRule& weight_rule(std::string_view heuristic)
 {
-    static const std::map<std::string, WeightRule, std::less<>> rules = all_rules();
-    const auto found = rules.find(heuristic);
-    if (found == rules.end())
-        throw std::out_of_range("no heuristic is called " + std::string(heuristic));
-    return found->second;
+    return *require_named(Heuristics{}, "heuristic", heuristic, []<class H>() {
+        static const WeightRule rule{weigh<H>, jumps_of<H>()};
+        return &rule;
+    });
 }
 
 }  // namespace mis

@@ -104,7 +104,7 @@ std::array<Vec3<double>, 2> rims_in_common(const Ball& ends, const Ball& other)
 }  // namespace
 
 Patch::Patch(const Sky& sky, int light, std::span<const int> neighbours, const Lobe& lobe,
-             const std::atomic<bool>* stop)
+             const StopToken& stop)
     : sky_(&sky), light_(light), polar_(sky.ball(light).cap.axis), lobe_(lobe), stop_(stop)
 {
     const Ball& ball = sky.ball(light);
@@ -147,7 +147,8 @@ void Patch::add_pairs()
     for (std::size_t i = 0; i < circles_.size(); ++i)
         if (i != horizon && sky_->ball(circles_[i].ball).stands == Ball::Stands::apart)
             solid.push_back(static_cast<int>(i));
-    for (std::size_t i = 0; i < solid.size(); ++i)
+    for (std::size_t i = 0; i < solid.size(); ++i) {
+        stop_.check();
         for (std::size_t k = i + 1; k < solid.size(); ++k) {
             const Ball& a = sky_->ball(ball_of(solid[i]));
             const Ball& b = sky_->ball(ball_of(solid[k]));
@@ -157,6 +158,7 @@ void Patch::add_pairs()
                                     a.cap.gap2, dot(m, polar_.pole),
                                     dot(a.to_center, polar_.pole)});
         }
+    }
 }
 
 int Patch::ball_of(int circle_or_wall) const
@@ -202,9 +204,11 @@ std::vector<double> Patch::known_azimuths() const
         for (const PlanePoint& point : tangent_points(circles_[i]))
             if (i != own) add_point(point, i);
             else if (std::isfinite(point.phi)) add(point.phi);
-        for (std::size_t k = 0; k < i; ++k)
+        for (std::size_t k = 0; k < i; ++k) {
+            stop_.check();
             for (const PlanePoint& point : common_points(circles_[i], circles_[k]))
                 add_point(point, i, k);
+        }
     }
     const auto add_direction = [&](const Vec3<double>& w) {
         const double half_chord2 = length2(w - polar_.pole) / 4;
@@ -344,7 +348,7 @@ void Patch::add_stretches(double begin, double end, const std::vector<char>& hel
 
 void Patch::meridian(double phi, Meridian& out) const
 {
-    if (stop_ != nullptr && *stop_) throw PredictError("interrupted");
+    stop_.check();
     const double cos_phi = std::cos(phi), sin_phi = std::sin(phi);
     out.around = polar_.e1 * cos_phi + polar_.e2 * sin_phi;
     out.stretches.clear(), out.along.clear(), out.hints.clear();

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/predict/circle.h"
 #include "mis/predict/lobe.h"
 #include "mis/predict/sky.h"
 
-#include <atomic>
 #include <span>
 #include <vector>
 
@@ -14,8 +14,8 @@ namespace mis {
 struct Stretch {
     double begin, end;               ///< θ from the pole, radians
     int nearest;                     ///< ball that is met first: a light that shines
-    std::size_t first_along, along;  ///< of Meridian::along: the lights whose caps hold it, as
-                                     ///< numbers in Patch::lights()
+    std::size_t first_along, along;  ///< of Meridian::along: the lights whose caps
+                                     ///< hold it, as numbers in Patch::lights()
     int nearest_local;               ///< `nearest` as such a number
 };
 
@@ -33,9 +33,9 @@ struct Meridian {
 class Patch {
 public:
     /// neighbours: the balls that could share a direction with the light's cap, itself excluded.
-    /// stop: looked at by every meridian, which throws PredictError once it is set.
+    /// Throws Stopped, as meridian() does.
     Patch(const Sky& sky, int light, std::span<const int> neighbours, const Lobe& lobe,
-          const std::atomic<bool>* stop = nullptr);
+          const StopToken& stop = {});
 
     const Polar& polar() const { return polar_; }
     /// Lights whose caps overlap this one's, itself first.
@@ -82,7 +82,7 @@ private:
     std::vector<bool> smaller_;         ///< is the circle's cap that of a smaller light?
     std::vector<Pair> interlocked_;
     std::vector<double> azimuths_;
-    const std::atomic<bool>* stop_;
+    StopToken stop_;
 };
 
 }  // namespace mis

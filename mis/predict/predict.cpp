@@ -170,7 +170,7 @@ private:
 };
 
 /// The patches that can count: of lights not wholly below the horizon.
-std::vector<Patch> patches_of(const Sky& sky, const Lobe& lobe, const std::atomic<bool>* stop)
+std::vector<Patch> patches_of(const Sky& sky, const Lobe& lobe, const StopToken& stop)
 {
     std::vector<Patch> patches;
     for (std::size_t j = 0; j < sky.lights; ++j)
@@ -186,15 +186,16 @@ std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
                                const PredictTolerance& tolerance, const PredictRun& run)
 {
     std::vector<Predicted> result(strategies.size());
-    const Sky sky = sky_of(scene, probe);
+    const Sky sky = sky_of(scene, probe, run.stop);
     if (sky.is_dark || scene.lights.empty() || !(dot(probe.normal, probe.outgoing) > 0))
         return result;
-    refuse_blockers(scene, probe);
+    refuse_blockers(scene, probe, run.stop);
     const Response response(scene.materials[static_cast<std::size_t>(probe.material)], probe.normal,
                             probe.outgoing);
     const Lobe lobe = lobe_of(response);
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * (2 + 1 / lobe.width);
     const Plan plan(scene, probe, strategies);
+    run.stop.check();
     const std::vector<Patch> patches = patches_of(sky, lobe, run.stop);
     const auto predict_group = [&](std::size_t g) {
         const Group& group = plan.groups[g];

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/run/executor.h"
 #include "mis/scene/scene.h"
 #include "mis/strategy/strategy.h"
 
-#include <atomic>
 #include <span>
 #include <stdexcept>
 #include <vector>
@@ -34,16 +34,16 @@ struct PredictError : std::runtime_error {
 
 /// How a prediction runs: on one thread and to its end, unless told otherwise.
 struct PredictRun {
-    const AnyExecutor* executor = nullptr;    ///< shares the work; no figure depends on it
-    const std::atomic<bool>* stop = nullptr;  ///< ends it with PredictError once it is set
+    const AnyExecutor* executor = nullptr;  ///< shares the work; no figure depends on it
+    StopToken stop = {};                    ///< ends it, with Stopped
 };
 
 /// Exact mean, variance and fourth central moment of one sample of each strategy at a probe, by
 /// deterministic quadrature in double: no random numbers. Lights hide one another, the horizon cuts
 /// them, spheres among the surfaces occlude. The strategies are checked (strategy/strategy.h).
-/// Errors: PredictError where a mesh or quad could hide a light from the probe, and once
-/// *run.stop is set.
-/// Accuracy: the stated errors bound the true ones (predict_test.cpp); docs/theory-predict.md.
+/// Errors: PredictError where a mesh or quad could hide a light from the probe;
+/// Stopped. Accuracy: the stated errors bound the true ones (predict_test.cpp);
+/// docs/theory-predict.md.
 std::vector<Predicted> predict(const Scene& scene, const Probe& probe,
                                std::span<const Strategy> strategies,
                                const PredictTolerance& tolerance = {}, const PredictRun& run = {});

@@ -1,23 +1,19 @@
 #include "mis/predict/response.h"
 
 #include "mis/bsdf/registry.h"
-
-#include <stdexcept>
+#include "mis/scene/named.h"
 
 namespace mis {
 
 Response::Response(const Material& material, const Vec3<double>& n, const Vec3<double>& wo)
     : frame_(frame_around(n)), wo_(wo), wo_local_(frame_.to_local(wo))
 {
-    for_each_type(Bsdfs{}, [&]<class B>() {
-        if (B::name != material.type) return;
+    using Evaluate = decltype(evaluate_);
+    evaluate_ = require_named(Bsdfs{}, "BSDF", material.type, [&]<class B>() -> Evaluate {
         const B bsdf(material);
         draws_ = bsdf.draws();
-        evaluate_ = [bsdf](const Vec3<double>& o, const Vec3<double>& i) {
-            return bsdf.evaluate(o, i);
-        };
+        return [bsdf](const Vec3<double>& o, const Vec3<double>& i) { return bsdf.evaluate(o, i); };
     });
-    if (!evaluate_) throw std::out_of_range("no BSDF is called " + material.type);
 }
 
 ResponseValue Response::at(const Vec3<double>& wi) const

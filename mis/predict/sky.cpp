@@ -79,7 +79,7 @@ std::vector<int> neighbours_of(const Sky& sky, std::size_t light)
 
 }  // namespace
 
-Sky sky_of(const Scene& scene, const Probe& probe)
+Sky sky_of(const Scene& scene, const Probe& probe, const StopToken& stop)
 {
     Sky sky{.n = probe.normal, .lights = scene.lights.size()};
     sky.balls.reserve(scene.lights.size() + scene.surfaces.size());
@@ -92,8 +92,10 @@ Sky sky_of(const Scene& scene, const Probe& probe)
         if (const auto* sphere = std::get_if<SphereSurface>(&surface.shape))
             sky.balls.push_back(surface_ball(*sphere, probe));
     sky.neighbours.resize(sky.lights);
-    for (std::size_t j = 0; j < sky.lights && !sky.is_dark; ++j)
+    for (std::size_t j = 0; j < sky.lights && !sky.is_dark; ++j) {
+        stop.check();
         sky.neighbours[j] = neighbours_of(sky, j);
+    }
     return sky;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/math/cap.h"
+#include "mis/math/stop_token.h"
 #include "mis/scene/scene.h"
 
 #include <vector>
@@ -11,13 +12,15 @@ namespace mis {
 struct Ball {
     enum class Stands {
         apart,    ///< the point is outside it: the ball is a cap of directions
-        beneath,  ///< the point lies on it, outside: half of all directions start into it
-        around    ///< the point is inside it (surfaces alone): every direction ends at its far wall
+        beneath,  ///< the point lies on it, outside: half of all directions start
+                  ///< into it
+        around    ///< the point is inside it (surfaces alone): every direction ends at
+                  ///< its far wall
     };
     Vec3<double> to_center;
     double radius = 0;
-    Cap<double>
-        cap{};  ///< its gap2 is negative for `around`; unused for `beneath` but for the axis
+    Cap<double> cap{};   ///< its gap2 is negative for `around`; unused for
+                         ///< `beneath` but for the axis
     double sin_max = 0;  ///< of the cap's half-angle
     double one_minus_cos = 0;
     LightIndex light = no_light;
@@ -32,15 +35,16 @@ struct Ball {
 struct Sky {
     Vec3<double> n;  ///< unit shading normal
     std::vector<Ball> balls;
-    std::vector<std::vector<int>>
-        neighbours;  ///< of each light: the balls that could share a direction with its cap
+    std::vector<std::vector<int>> neighbours;  ///< of each light: the balls that could share a
+                                               ///< direction with its cap
     std::size_t lights = 0;
     bool is_dark = false;  ///< the point is inside a light or on it
 
     const Ball& ball(int index) const { return balls[static_cast<std::size_t>(index)]; }
 };
 
-Sky sky_of(const Scene& scene, const Probe& probe);
+/// Throws Stopped.
+Sky sky_of(const Scene& scene, const Probe& probe, const StopToken& stop = {});
 
 /// axis of b − axis of a, with full relative precision for neighbours (docs/theory-predict.md,
 /// P14).

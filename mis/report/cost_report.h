@@ -3,6 +3,7 @@
 #include "mis/report/report.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,8 @@ constexpr const char* name_of(Reach reach)
 struct TimeToError {
     double error = 0;    ///< one of cost_targets
     double samples = 0;  ///< per shading point, at least 1; NaN where unknown
-    Interval seconds;    ///< wall time on the stated threads, with preparation; at_most: low is 0
+    Interval seconds;    ///< wall time on the stated threads, with preparation;
+                         ///< at_most: low is 0
     Reach reach = Reach::unknown;
 };
 
@@ -72,7 +74,8 @@ struct CostCurveReport {
     CostReason reason;              ///< why there are no points
     std::vector<CostPoint> points;  ///< by samples
     Interval slope;              ///< d log(error)/d log(samples): −½ for any unbiased estimate
-    Interval slope_in_time;      ///< d log(error)/d log(seconds): steeper by what is prepared
+    Interval slope_in_time;      ///< d log(error)/d log(seconds): steeper by what is
+                                 ///< prepared
     double slope_p_value = 1;    ///< of −½ against the slope of the trusted points
     bool fits = true;            ///< error² = V/n holds as far as was measured
     Interval relative_variance;  ///< V: samples · error²
@@ -105,6 +108,7 @@ struct CostSceneReport : SceneFacts {
     bool is_black = false;   ///< no sample of the reference met any light
     bool partial = false;
     double seconds = 0;  ///< wall
+    std::optional<SetupSeconds> setup;
     ReferenceReport reference;
     std::vector<CostCurveReport> curves;
     std::vector<CrossingReport> crossings;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/effects/effects.h"
+#include "mis/scene/point_counts.h"
 
 #include <cstddef>
 #include <string>
@@ -28,6 +29,7 @@ struct Explanation {
     std::size_t quads = 0, spheres = 0, meshes = 0, triangles = 0;
     int width = 0, height = 0;  ///< 0 without a camera
     std::size_t shading_points = 0, dark_points = 0, background_pixels = 0, tiles = 0;
+    PointCounts counts;  ///< why points are dark, and whose normals were turned off their surface
     std::size_t probes = 0;
     std::vector<MaterialUse> materials;
     std::vector<EffectPlan> effects;

@@ -25,6 +25,12 @@ struct PastBudget {
     double samples = 0, share = 0;
 };
 
+/// Its tables and its first samples were not ready in the time given.
+struct NotReady {};
+
+/// The set-up, the audit included, left too little of the time.
+struct LateSetUp {};
+
 /// How many samples there were of each point, or scramblings.
 struct Observations {
     double count = 0;
@@ -55,6 +61,11 @@ struct CarriedByFew {
     Observations of;
 };
 
+/// Its samples differ by the rounding of floats alone, which is no proof that it is exact.
+struct RoundingAlone {
+    std::size_t zero_points = 0;  ///< where all of its samples are 0
+};
+
 /// The variance has a larger relative standard error than is trusted; NaN: unknown.
 struct ReplicatesDiffer {
     double error = 0, largest = 0;
@@ -80,6 +91,9 @@ struct DoublingsTooDear {
     double seconds = 0;
 };
 
+/// There was no time for a first sample.
+struct NoFirstLook {};
+
 /// One sample of every point takes so many seconds, so many times.
 struct SampleTooDear {
     double seconds = 0;
@@ -96,12 +110,13 @@ struct NothingLit {};
 
 using Reason =
     std::variant<reason::None, reason::AsWritten, reason::Stopped, reason::PastBudget,
-                 reason::AuditFails, reason::NeverVaries, reason::FewReplicates, reason::NotFinite,
+                 reason::NotReady, reason::LateSetUp, reason::AuditFails, reason::NeverVaries,
+                 reason::FewReplicates, reason::NotFinite, reason::RoundingAlone,
                  reason::CarriedByFew, reason::ReplicatesDiffer, reason::MeanDiffers>;
 
-using CostReason =
-    std::variant<reason::None, reason::Stopped, reason::FirstDoublingLate, reason::DoublingsTooDear,
-                 reason::SampleTooDear, reason::NoTimeLeft, reason::NothingLit>;
+using CostReason = std::variant<reason::None, reason::Stopped, reason::FirstDoublingLate,
+                                reason::DoublingsTooDear, reason::NoFirstLook,
+                                reason::SampleTooDear, reason::NoTimeLeft, reason::NothingLit>;
 
 inline bool is_none(const Reason& why) { return std::holds_alternative<reason::None>(why); }
 inline bool is_none(const CostReason& why) { return std::holds_alternative<reason::None>(why); }

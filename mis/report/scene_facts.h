@@ -1,5 +1,8 @@
 #pragma once
 
+#include "mis/report/field.h"
+
+#include <concepts>
 #include <cstddef>
 #include <string>
 
@@ -12,5 +15,19 @@ struct SceneFacts {
     int width = 0, height = 0;  ///< 0 without a camera
     std::size_t shading_points = 0, background_pixels = 0;
 };
+
+template <class Visitor, class S>
+requires std::derived_from<S, SceneFacts>
+void describe_facts(Visitor& v, S& scene)
+{
+    v.text(Field("file"), scene.file);
+    v.text(Field("name"), scene.name);
+    v.count(Field("lights"), scene.lights);
+    v.count(Field("surfaces"), scene.surfaces);
+    v.count(Field("triangles"), scene.triangles);
+    v.resolution(Field("resolution", unit::pixels), scene.width, scene.height);
+    v.count(Field("shading_points"), scene.shading_points);
+    v.count(Field("background_pixels"), scene.background_pixels);
+}
 
 }  // namespace mis

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
+
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -30,6 +32,18 @@ template <Executor E> AnyExecutor any_executor(E executor)
 {
     return {executor.threads(),
             [executor](std::size_t n, const auto& body) { executor.for_each(n, body); }};
+}
+
+/// The same executor, but once the token is up it begins no other body, and the call throws
+/// Stopped: what the bodies were to write is then not all there.
+inline AnyExecutor stoppable(const AnyExecutor& executor, const StopToken& stop)
+{
+    return {executor.threads, [executor, stop](std::size_t n, const auto& body) {
+                executor.for_each(n, [&](std::size_t i) {
+                    stop.check();
+                    body(i);
+                });
+            }};
 }
 
 }  // namespace mis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/scene/material.h"
+#include "mis/scene/named.h"
 
 #include <array>
 #include <span>
@@ -53,6 +54,15 @@ inline constexpr std::array material_types{
     MaterialType{"ggx", material_fields::ggx},
 };
 
+static_assert(
+    [] {
+        for (const MaterialType& type : material_types)
+            for (const MaterialField& field : type.fields)
+                if ((field.color == nullptr) == (field.number == nullptr)) return false;
+        return true;
+    }(),
+    "a field is a colour or a number");
+
 inline constexpr auto material_type_names = [] {
     std::array<std::string_view, material_types.size()> names;
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = material_types[i].name;
@@ -62,9 +72,7 @@ inline constexpr auto material_type_names = [] {
 /// The entry of that name; null if there is none.
 inline constexpr const MaterialType* find_material_type(std::string_view name)
 {
-    for (const MaterialType& type : material_types)
-        if (type.name == name) return &type;
-    return nullptr;
+    return find_named(material_types, name);
 }
 
 }  // namespace mis

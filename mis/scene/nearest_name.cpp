@@ -42,6 +42,12 @@ std::string_view nearest_name(std::string_view typed, std::span<const std::strin
         const std::size_t distance = edit_distance(typed, name);
         if (distance < least && distance < name.size()) least = distance, nearest = name;
     }
+    if (nearest.empty() && typed.size() >= 3)  // or a name that was not written to its end
+        for (const std::string_view name : known)
+            if (edit_distance(typed, name.substr(0, typed.size())) == 0) {
+                if (!nearest.empty()) return {};
+                nearest = name;
+            }
     return nearest;
 }
 

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace mis {
 namespace {
@@ -26,10 +28,13 @@ template <class... Rules> MaybeProblem first_problem(const Rules&... rules)
 
 /// The first problem among `items`, each examined with its index.
 template <class Items, class Rule>
-MaybeProblem first_problem_among(const Items& items, const Rule& rule)
+MaybeProblem first_problem_among(const Items& items, const StopToken& stop, const Rule& rule)
 {
-    for (std::size_t i = 0; i < items.size(); ++i)
+    StopEvery check(stop, 1 << 14);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        check();
         if (MaybeProblem problem = rule(items[i], i)) return problem;
+    }
     return {};
 }
 
@@ -115,17 +120,18 @@ MaybeProblem check_lens(const Camera& camera)
     return {};
 }
 
-MaybeProblem check_outside_lights(const Camera& camera, const Lights& lights)
+MaybeProblem check_outside_lights(const Camera& camera, const Lights& lights, const StopToken& stop)
 {
-    return first_problem_among(lights, [&](const Light& light, std::size_t j) -> MaybeProblem {
-        if (length(camera.position - light.center) > light.radius) return {};
-        return Problem{"/camera/position",
-                       to_text(camera.position) + ", inside light " + to_text(j) +
-                           " (counted from 0; center " + to_text(light.center) + ", radius " +
-                           to_text(light.radius) + ")",
-                       "a camera stands outside all lights, whose inner sides are dark",
-                       "Move the camera, or make the light smaller."};
-    });
+    return first_problem_among(
+        lights, stop, [&](const Light& light, std::size_t j) -> MaybeProblem {
+            if (length(camera.position - light.center) > light.radius) return {};
+            return Problem{"/camera/position",
+                           to_text(camera.position) + ", inside light " + to_text(j) +
+                               " (counted from 0; center " + to_text(light.center) + ", radius " +
+                               to_text(light.radius) + ")",
+                           "a camera stands outside all lights, whose inner sides are dark",
+                           "Move the camera, or make the light smaller."};
+        });
 }
 
 MaybeProblem check_camera(const Scene& scene)
@@ -167,6 +173,62 @@ MaybeProblem check_probe(const Probe& probe, const Scene& scene)
                          [&] { return check_unit_vector("/normal", probe.normal); },
                          [&] { return check_unit_vector("/outgoing", probe.outgoing); },
                          [&] { return check_material_index("/material", probe.material, scene); });
+}
+
+/// Floats hold d² − r² of a point and a light down to the limit's square. Only of tiny lights can
+/// it be less, outside them.
+MaybeProblem check_near_lights(const Vec3<double>& x, const Lights& lights,
+                               std::span<const std::size_t> tiny, double least,
+                               const StopToken& stop)
+{
+    return first_problem_among(tiny, stop, [&](std::size_t j, std::size_t) -> MaybeProblem {
+        const double d = length(x - lights[j].center), r = lights[j].radius;
+        if (d <= r || (d - r) * (d + r) >= least * least) return {};
+        return Problem{"/position",
+                       to_text(x) + ", " + to_text(d) + " from the center of light " + to_text(j) +
+                           " (counted from 0), whose radius is " + to_text(r),
+                       "the tangents from here to a light are at least " + to_text(least) +
+                           " scene units long",
+                       "Use smaller units of length."};
+    });
+}
+
+/// The farthest corner of the box around the camera and the probes is as far as any of them.
+MaybeProblem check_far_lights(const Scene& scene, const StopToken& stop)
+{
+    Vec3<double> low(std::numeric_limits<double>::infinity()), high = -low;
+    const auto reach = [&](const Vec3<double>& x) { low = min(low, x), high = max(high, x); };
+    if (scene.camera) reach(scene.camera->position);
+    for (const Probe& probe : scene.probes) reach(probe.position);
+    return first_problem_among(
+        scene.lights, stop, [&](const Light& light, std::size_t j) -> MaybeProblem {
+            const double d = length(max(light.center - low, high - light.center));
+            if (light.radius >= limits::min_radius_over_distance2 * d * d) return {};
+            return Problem{
+                "/lights/" + to_text(j) + "/radius",
+                to_text(light.radius) + ", " + to_text(d) + " from the camera or a probe",
+                "a radius over the square of the distance is at least " +
+                    to_text(limits::min_radius_over_distance2),
+                "Use larger units of length, or a larger radius of the same power."};
+        });
+}
+
+MaybeProblem check_distances(const Scene& scene, const StopToken& stop)
+{
+    constexpr double tiny_radius = 1e-9;  // of larger ones, what a double tells apart is enough
+    std::vector<std::size_t> tiny;
+    for (std::size_t j = 0; j < scene.lights.size(); ++j)
+        if (scene.lights[j].radius < tiny_radius) tiny.push_back(j);
+    if (tiny.empty()) return {};
+    if (scene.camera)  // whose points are not known here, but are no nearer as a rule
+        if (MaybeProblem problem = check_near_lights(scene.camera->position, scene.lights, tiny,
+                                                     limits::min_camera_tangent, stop))
+            return placed_below("/camera", std::move(problem));
+    return first_problem_among(scene.probes, stop, [&](const Probe& probe, std::size_t i) {
+        return placed_below(
+            "/probes/" + to_text(i),
+            check_near_lights(probe.position, scene.lights, tiny, limits::min_tangent, stop));
+    });
 }
 
 // ── materials ──
@@ -213,9 +275,9 @@ MaybeProblem check_material(const Material& material)
                        "known types are " + comma_list(material_type_names),
                        did_you_mean(material.type, material_type_names, "Use one of these.")};
     const auto fields = [&] {
-        return first_problem_among(type->fields, [&](const MaterialField& f, std::size_t) {
-            return check_field(material, f);
-        });
+        return first_problem_among(
+            type->fields, StopToken(),
+            [&](const MaterialField& f, std::size_t) { return check_field(material, f); });
     };
     const auto probability = [&]() -> MaybeProblem {
         const double s = material.specular_probability.value_or(0);
@@ -233,13 +295,13 @@ MaybeProblem check_material(const Material& material)
 
 // ── surfaces ──
 
-MaybeProblem check_shape(const SphereSurface& sphere)
+MaybeProblem check_shape(const SphereSurface& sphere, const StopToken&)
 {
     return first_problem([&] { return check_position("/center", sphere.center); },
                          [&] { return check_radius("/radius", sphere.radius); });
 }
 
-MaybeProblem check_shape(const Quad& quad)
+MaybeProblem check_shape(const Quad& quad, const StopToken&)
 {
     const auto edges = [&]() -> MaybeProblem {
         if (sine_between(quad.edges[0], quad.edges[1]) >= limits::min_sine) return {};
@@ -252,13 +314,13 @@ MaybeProblem check_shape(const Quad& quad)
                          [&] { return check_position("/edges/1", quad.edges[1]); }, edges);
 }
 
-MaybeProblem check_triangles(const Mesh& mesh)
+MaybeProblem check_triangles(const Mesh& mesh, const StopToken& stop)
 {
     if (mesh.triangles.empty())
         return Problem{"/file", "a mesh without triangles", "a mesh has at least one triangle",
                        "Remove the surface."};
     return first_problem_among(
-        mesh.triangles, [&](const auto& triangle, std::size_t i) -> MaybeProblem {
+        mesh.triangles, stop, [&](const auto& triangle, std::size_t i) -> MaybeProblem {
             const std::uint32_t last = std::max({triangle[0], triangle[1], triangle[2]});
             if (last < mesh.positions.size()) return {};
             return Problem{
@@ -268,17 +330,17 @@ MaybeProblem check_triangles(const Mesh& mesh)
         });
 }
 
-MaybeProblem check_vertices(const Mesh& mesh)
+MaybeProblem check_vertices(const Mesh& mesh, const StopToken& stop)
 {
     return first_problem_among(
-        mesh.positions, [](const Vec3<double>& position, std::size_t i) -> MaybeProblem {
+        mesh.positions, stop, [](const Vec3<double>& position, std::size_t i) -> MaybeProblem {
             if (is_position(position)) return {};
             return Problem{"/file", "vertex " + to_text(i) + " at " + to_text(position),
                            coordinates_allowed(), "Look at the mesh, and at its transform."};
         });
 }
 
-MaybeProblem check_normals(const Mesh& mesh)
+MaybeProblem check_normals(const Mesh& mesh, const StopToken& stop)
 {
     constexpr float tolerance = 1e-4f;
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
@@ -287,7 +349,7 @@ MaybeProblem check_normals(const Mesh& mesh)
                            to_text(mesh.positions.size()) + " vertices",
                        "a mesh has one normal per vertex, or none at all", "Mend the mesh."};
     return first_problem_among(
-        mesh.normals, [](const Vec3<float>& normal, std::size_t i) -> MaybeProblem {
+        mesh.normals, stop, [](const Vec3<float>& normal, std::size_t i) -> MaybeProblem {
             if (std::abs(length(normal) - 1) <= tolerance) return {};
             return Problem{
                 "/file", "normal " + to_text(vec_cast<double>(normal)) + " at vertex " + to_text(i),
@@ -295,17 +357,19 @@ MaybeProblem check_normals(const Mesh& mesh)
         });
 }
 
-MaybeProblem check_shape(const Mesh& mesh)
+MaybeProblem check_shape(const Mesh& mesh, const StopToken& stop)
 {
-    return first_problem([&] { return check_triangles(mesh); },
-                         [&] { return check_vertices(mesh); }, [&] { return check_normals(mesh); });
+    return first_problem([&] { return check_triangles(mesh, stop); },
+                         [&] { return check_vertices(mesh, stop); },
+                         [&] { return check_normals(mesh, stop); });
 }
 
-MaybeProblem check_surface(const Surface& surface, const Scene& scene)
+MaybeProblem check_surface(const Surface& surface, const Scene& scene, const StopToken& stop)
 {
     return first_problem(
         [&] {
-            return std::visit([](const auto& shape) { return check_shape(shape); }, surface.shape);
+            return std::visit([&](const auto& shape) { return check_shape(shape, stop); },
+                              surface.shape);
         },
         [&] { return check_material_index("/material", surface.material, scene); });
 }
@@ -380,7 +444,7 @@ MaybeProblem find_light_problem(const Vec3<double>& center, double radius, Emiss
                          [&] { return check_emission(radius, emission, emitted); });
 }
 
-MaybeProblem find_problem(const Scene& scene)
+MaybeProblem find_problem(const Scene& scene, const StopToken& stop)
 {
     const auto indexed = [](const char* list, std::size_t i, MaybeProblem problem) {
         return problem ? placed_below(list + to_text(i), std::move(problem)) : MaybeProblem{};
@@ -388,32 +452,36 @@ MaybeProblem find_problem(const Scene& scene)
     return first_problem(
         [&] { return check_camera(scene); },
         [&] {
-            return first_problem_among(scene.probes, [&](const Probe& probe, std::size_t i) {
+            return first_problem_among(scene.probes, stop, [&](const Probe& probe, std::size_t i) {
                 return indexed("/probes/", i, check_probe(probe, scene));
             });
         },
         [&] {
-            return first_problem_among(scene.materials, [](const Material& material, std::size_t) {
-                return placed_below("/materials/" + pointer_token(material.name),
-                                    check_material(material));
-            });
+            return first_problem_among(
+                scene.materials, stop, [](const Material& material, std::size_t) {
+                    return placed_below("/materials/" + pointer_token(material.name),
+                                        check_material(material));
+                });
         },
         [&] {
-            return first_problem_among(scene.surfaces, [&](const Surface& surface, std::size_t i) {
-                return indexed("/surfaces/", i, check_surface(surface, scene));
-            });
+            return first_problem_among(
+                scene.surfaces, stop, [&](const Surface& surface, std::size_t i) {
+                    return indexed("/surfaces/", i, check_surface(surface, scene, stop));
+                });
         },
         [&] { return check_triangle_count(scene); },
         [&] { return check_light_count(scene.lights); },
         [&] {
-            return first_problem_among(scene.lights, [&](const Light& light, std::size_t i) {
+            return first_problem_among(scene.lights, stop, [&](const Light& light, std::size_t i) {
                 return indexed("/lights/", i, check_kept_light(light));
             });
         },
         [&] {
-            return scene.camera ? check_outside_lights(*scene.camera, scene.lights)
+            return scene.camera ? check_outside_lights(*scene.camera, scene.lights, stop)
                                 : MaybeProblem{};
-        });
+        },
+        [&] { return check_distances(scene, stop); },
+        [&] { return check_far_lights(scene, stop); });
 }
 
 }  // namespace mis

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/math/stop_token.h"
 #include "mis/scene/scene.h"
 
 #include <optional>
@@ -26,6 +27,11 @@ inline constexpr std::size_t scene_file_bytes = std::size_t{1}
 inline constexpr int nesting = 64;                      ///< of brackets and braces in a scene file
 inline constexpr double length = 1e15;               ///< of a coordinate or a radius, scene units
 inline constexpr double min_radius = 1e-30;          ///< of a light, scene units
+inline constexpr double min_tangent = 1e-18;         ///< from a point to a light outside it: its
+                                                     ///< square is still a float
+inline constexpr double min_camera_tangent = 1e-15;  ///< from a camera: its points may be nearer
+inline constexpr double min_radius_over_distance2 =
+    1e-36;  ///< of a light as seen from a camera or probe; 1/scene units: weights are floats
 inline constexpr double max_radiance_radius = 1e37;  ///< of a channel
 inline constexpr double min_radiance_radius =
     1e-37;  ///< of a channel that is not black: a float holds it in full
@@ -37,8 +43,8 @@ inline constexpr double min_sine =
 }  // namespace limits
 
 /// The first rule that `scene` breaks, or nothing. Pointers name the place in a scene file that
-/// would hold the value. The index in a pointer to a light is that in scene.lights.
-std::optional<Problem> find_problem(const Scene& scene);
+/// would hold the value. The index in a pointer to a light is that in scene.lights. Throws Stopped.
+std::optional<Problem> find_problem(const Scene& scene, const StopToken& stop = {});
 
 /// How a scene file states what a light emits.
 enum class Emission { radiance, power };

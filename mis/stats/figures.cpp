@@ -1,6 +1,7 @@
 #include "mis/stats/figures.h"
 
 #include "mis/math/limits.h"
+#include "mis/stats/exactness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,11 +36,15 @@ LogEstimate log_median_ratio(const Figures& a, const Figures& b, Seconds seconds
 }
 
 /// Of one point, from its own observations. The interval is normal in the logarithm; none where
-/// fewer than 30 of them carry the variance, as such a standard error means little.
-PointFigures point_figures(const Moments& moments, int samples_per_observation)
+/// fewer than 30 of them carry the variance, as such a standard error means little. What is
+/// rounding is no figure, but bounds one.
+PointFigures point_figures(const Moments& moments, int samples_per_observation, bool is_exact)
 {
     if (moments.count == 0) return {nan, nan, unknown_interval()};
     const double variance = moments.variance();
+    const double of_rounding = std::pow(rounding_of_samples * moments.mean, 2);
+    if (variance > 0 && variance <= of_rounding)
+        return {moments.mean, moments.mean_se(), {0, 0, is_exact ? 0 : of_rounding}};
     const bool known = moments.effective_count() >= 30;
     const double se = moments.m2 == 0 ? 0
                       : known         ? moments.variance_se() / variance
@@ -186,10 +191,10 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
     report.strategy = s.strategy;
     report.exact = figures.exact;
     report.samples = s.pooled.samples;
-    report.estimated_seconds = s.estimated_seconds;
     report.invalid_samples = s.invalid_samples;
-    report.first_invalid = s.first_invalid;
+    if (s.invalid_samples > 0) report.first_invalid = s.first_invalid;
     if (!s.was_run) {
+        report.estimated_seconds = s.estimated_seconds;
         report.mean = report.mean_se = report.rays_per_sample = unknown_interval().value;
         report.variance = report.relative_variance = report.seconds_per_point =
             report.seconds_per_sample = report.efficiency = report.seconds_to_1_percent =
@@ -220,7 +225,7 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
                                to_1_percent),
                 figures.relative_doubt * figures.sampling_share);
     for (const Moments& probe : s.probes)
-        report.probes.push_back(point_figures(probe, s.samples_per_observation));
+        report.probes.push_back(point_figures(probe, s.samples_per_observation, figures.exact));
     return report;
 }
 

@@ -50,6 +50,8 @@ struct PooledFigures {
     Participation participation;           ///< in `variance`
     Participation relative_participation;  ///< in `relative_variance`
     double largest_point_share = 0;        ///< of `variance`: what the noisiest point carries
+    double largest_relative_variance = 0;  ///< of a point: its variance over its squared mean
+    std::size_t zero_points = 0;           ///< of which all samples are 0
     double rare_share =
         0;  ///< of `variance`: what points carry whose own participation is below 10
 };
@@ -103,8 +105,9 @@ struct StrategyMeasurements {
     std::vector<std::vector<double>> region_variances;
     std::vector<Participation> region_participation;  ///< [region]; as many as regions
     PooledFigures pooled;
-    /// A proof of zero variance: every sample equals the reference (quadrature, or other
-    /// strategies') to 4 ulp.
+    /// A theorem says that every sample is the answer (engine/exact.h), or nothing is lit.
+    bool is_proved_exact = false;
+    /// Zero variance: every sample equals the reference to rounding, by exactness_of().
     bool all_samples_equal_reference = false;
     Audit audit;
 

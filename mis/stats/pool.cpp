@@ -36,6 +36,10 @@ PooledFigures pool_points(std::span<const Moments> points, std::span<const doubl
         add(pooled.participation, point, per_sample);
         largest = std::max(largest, variance);
         if (point.effective_count() < few_samples) rare += variance;
+        if (point.mean == 0 && point.m2 == 0) ++pooled.zero_points;
+        else
+            pooled.largest_relative_variance =
+                std::max(pooled.largest_relative_variance, variance / (point.mean * point.mean));
         if (scale[i] > 0) {
             pooled.relative_variance += variance / scale[i];
             add(pooled.relative_participation, point, per_sample / scale[i]);

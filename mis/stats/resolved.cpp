@@ -1,6 +1,7 @@
 #include "mis/stats/resolved.h"
 
 #include "mis/stats/estimate.h"
+#include "mis/stats/exactness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,12 @@ struct Check {
     }
     Reason reason() const { return reason::AuditFails{is_relative, at_least(), own}; }
 };
+
+/// A proof that its samples bear out: an estimate cannot refute it.
+bool is_exact_by_proof(const StrategyMeasurements& s)
+{
+    return s.is_proved_exact && s.all_samples_equal_reference;
+}
 
 /// What the audit has against its variance, or its relative variance; nothing where it has nothing,
 /// or where there was none.
@@ -53,6 +60,7 @@ std::optional<Check> relative_fault(const StrategyMeasurements& s)
 }
 std::optional<Check> audit_fault(const StrategyMeasurements& s)
 {
+    if (is_exact_by_proof(s)) return std::nullopt;
     const std::optional<Check> fault = variance_fault(s);
     return fault ? fault : relative_fault(s);
 }
@@ -92,8 +100,9 @@ double resolving_factor(const StrategyMeasurements& s)
 
 AuditedGrowth audited_growth(const StrategyMeasurements& s)
 {
-    const auto growth = [](const std::optional<Check>& fault) {
-        return fault && fault->own > 0 ? fault->at_least() / fault->own : 1;
+    const auto growth = [&s](const std::optional<Check>& fault) {
+        return !is_exact_by_proof(s) && fault && fault->own > 0 ? fault->at_least() / fault->own
+                                                                : 1;
     };
     return {growth(variance_fault(s)), growth(relative_fault(s))};
 }
@@ -115,6 +124,7 @@ Reason why_not(const StrategyMeasurements& s, bool is_relative_asked)
     if (s.replicates.size() < 2) return reason::FewReplicates{};
     if (!std::isfinite(pooled.variance) || !std::isfinite(pooled.mean)) return reason::NotFinite{};
     if (pooled.variance <= 0) return why_blind(s);
+    if (is_within_rounding(pooled)) return reason::RoundingAlone{pooled.zero_points};
     if (pooled.participation.number() < least_participation_to_rank)
         return carried_by_few(false, pooled.participation, s);
     if (is_relative_asked && pooled.relative_participation.sum_d4 > 0 &&

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,9 @@ namespace mis {
 struct Choosable {
     std::string name;     ///< "power", …
     std::string summary;  ///< half a sentence
+    /// Is it ranked where nothing is named, on a scene of so many lights, on whose surfaces some
+    /// BSDF has a lobe or none has? nullptr: never.
+    bool (*ranked_by_default)(std::size_t lights, bool has_lobes) = nullptr;
 };
 
 /// What the registry of policies lists, in its order.
@@ -19,10 +23,23 @@ const std::vector<Choosable>& heuristic_names();
 /// Those of the techniques.
 const std::vector<Choosable>& technique_names();
 
+/// The names of those that say that they are ranked by default on such a scene, in their order.
+std::vector<std::string> ranked_by_default(const std::vector<Choosable>& list, std::size_t lights,
+                                           bool has_lobes);
+
+/// Does this technique draw towards a light that a policy chose?
+bool chooses_light(std::string_view technique);
+
 /// Does this policy draw every light for one sample, in place of choosing one?
 bool draws_every_light(std::string_view policy);
 
 /// Does this policy look at all lights at every shading point, in time linear in their number?
 bool reads_all_lights(std::string_view policy);
+
+/// Does it weigh lights by what they would give a surface without a lobe that nothing shades?
+bool weighs_by_irradiance(std::string_view policy);
+
+/// Does this technique draw a light's directions in proportion to their cosine?
+bool draws_by_irradiance(std::string_view technique);
 
 }  // namespace mis

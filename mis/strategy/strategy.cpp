@@ -1,9 +1,10 @@
 #include "mis/strategy/strategy.h"
 
 #include "mis/heuristic/registry.h"
+#include "mis/math/raise.h"
 #include "mis/policy/registry.h"
+#include "mis/scene/named.h"
 #include "mis/scene/nearest_name.h"
-#include "mis/scene/raise.h"
 #include "mis/strategy/names.h"
 #include "mis/technique/registry.h"
 
@@ -18,53 +19,31 @@ template <class List> std::vector<Choosable> listed(List list)
     std::vector<Choosable> names;
     for_each_type(list, [&]<class C>() {
         names.push_back({std::string(C::name), std::string(C::summary)});
+        if constexpr (requires { C::ranked_by_default; })
+            names.back().ranked_by_default = C::ranked_by_default;
     });
     return names;
 }
 
-const Choosable* find(const std::vector<Choosable>& list, std::string_view name)
-{
-    for (const Choosable& c : list)
-        if (c.name == name) return &c;
-    return nullptr;
-}
-
-std::vector<std::string_view> names(const std::vector<Choosable>& list)
-{
-    std::vector<std::string_view> views;
-    for (const Choosable& c : list) views.push_back(c.name);
-    return views;
-}
-
-std::string known(const std::vector<Choosable>& list) { return comma_list(names(list)); }
+std::string known(const std::vector<Choosable>& list) { return comma_list(names_in(list)); }
 
 /// "\n    Did you mean …?", or nothing where no name is near.
 std::string suggestion(std::string_view found, const std::vector<Choosable>& list)
 {
-    const std::string_view near = nearest_name(found, names(list));
+    const std::string_view near = nearest_name(found, names_in(list));
     return near.empty() ? "" : "\n    Did you mean \"" + std::string(near) + "\"?";
 }
 
 [[noreturn]] void refuse_unknown(std::string_view strategy, std::string_view kind,
                                  std::string_view found, const std::vector<Choosable>& list)
 {
-    raise<StrategyError>("strategy \"" + std::string(strategy) + "\": found " + std::string(kind) +
-                         " \"" + std::string(found) + "\"; known are " + known(list) +
-                         suggestion(found, list));
+    raise<StrategyError>("strategy \"" + std::string(strategy) + "\": " +
+                         unknown_name("found " + std::string(kind), found, names_in(list)));
 }
 
 [[noreturn]] void refuse(std::string_view strategy, const std::string& reason)
 {
     raise<StrategyError>("strategy \"" + std::string(strategy) + "\": " + reason);
-}
-
-bool chooses_light(std::string_view technique)
-{
-    bool chooses = false;
-    for_each_type(Techniques{}, [&]<class K>() {
-        chooses = chooses || (K::name == technique && K::chooses_light);
-    });
-    return chooses;
 }
 
 std::array<int, 2> parse_counts(std::string_view strategy, std::string_view text)
@@ -97,20 +76,53 @@ std::vector<std::string_view> split(std::string_view text, char separator)
 
 }  // namespace
 
+std::vector<std::string> ranked_by_default(const std::vector<Choosable>& list, std::size_t lights,
+                                           bool has_lobes)
+{
+    std::vector<std::string> names;
+    for (const Choosable& c : list)
+        if (c.ranked_by_default != nullptr && c.ranked_by_default(lights, has_lobes))
+            names.push_back(c.name);
+    return names;
+}
+
+bool chooses_light(std::string_view technique)
+{
+    bool chooses = false;
+    visit_named(Techniques{}, technique, [&]<class K>() { chooses = K::chooses_light; });
+    return chooses;
+}
+
 bool draws_every_light(std::string_view policy)
 {
     bool every = false;
-    for_each_type(Policies{},
-                  [&]<class P>() { every = every || (P::name == policy && P::draws_every_light); });
+    visit_named(Policies{}, policy, [&]<class P>() { every = P::draws_every_light; });
     return every;
 }
 
 bool reads_all_lights(std::string_view policy)
 {
     bool looks = false;
-    for_each_type(Policies{},
-                  [&]<class P>() { looks = looks || (P::name == policy && P::reads_all_lights); });
+    visit_named(Policies{}, policy, [&]<class P>() { looks = P::reads_all_lights; });
     return looks;
+}
+
+bool weighs_by_irradiance(std::string_view policy)
+{
+    bool weighs = false;
+    visit_named(Policies{}, policy, [&]<class P>() {
+        weighs = requires { P::weighs_by_irradiance; };
+    });
+    return weighs;
+}
+
+bool draws_by_irradiance(std::string_view technique)
+{
+    bool draws = false;
+    visit_named(Techniques{}, technique, [&]<class K>() {
+        draws = requires { K::draws_by_irradiance; };
+    });
+    return draws;
 }
 
 const std::vector<Choosable>& policy_names()
@@ -144,7 +156,7 @@ std::string name_of(const Strategy& s)
 Strategy checked(Strategy s)
 {
     const std::string name = name_of(s);
-    if (find(technique_names(), s.technique) == nullptr)
+    if (find_named(technique_names(), s.technique) == nullptr)
         refuse_unknown(name, "technique", s.technique, technique_names());
     if (!s.chooses_light()) {
         if (chooses_light(s.technique))
@@ -154,11 +166,11 @@ Strategy checked(Strategy s)
                    "a strategy that chooses no light has one draw and nothing to combine it with");
         return s;
     }
-    if (find(policy_names(), s.policy) == nullptr)
+    if (find_named(policy_names(), s.policy) == nullptr)
         refuse_unknown(name, "policy", s.policy, policy_names());
     if (s.heuristic == "brdf" || s.heuristic == "cosine" || s.heuristic == "hemisphere")
         refuse(name, "it draws no light, so it has no policy; say \"" + s.heuristic + "\"");
-    if (find(heuristic_names(), s.heuristic) == nullptr)
+    if (find_named(heuristic_names(), s.heuristic) == nullptr)
         refuse_unknown(name, "heuristic", s.heuristic, heuristic_names());
     if (!chooses_light(s.technique))
         refuse(name, "\"" + s.technique + "\" draws no light, so it has no policy; say \"" +
@@ -191,10 +203,10 @@ Strategy parse_strategy(std::string_view name)
     if (parts.size() == 1) {
         s.technique = parts[0];
         s.counts = {0, 1};
-        if (find(policy_names(), parts[0]) != nullptr)
+        if (find_named(policy_names(), parts[0]) != nullptr)
             refuse(name, "a policy needs a heuristic: \"" + std::string(parts[0]) +
                              "/light\", or one of " + known(heuristic_names()));
-        if (find(technique_names(), parts[0]) == nullptr) {
+        if (find_named(technique_names(), parts[0]) == nullptr) {
             std::vector<Choosable> whole;
             for (const Choosable& c : technique_names())
                 if (!mis::chooses_light(c.name)) whole.push_back(c);
@@ -209,7 +221,7 @@ Strategy parse_strategy(std::string_view name)
         if (s.heuristic == "light") s.counts = {1, 0};
         bool has_technique = false;
         for (std::size_t i = 2; i < parts.size(); ++i) {
-            const bool is_technique = find(technique_names(), parts[i]) != nullptr;
+            const bool is_technique = find_named(technique_names(), parts[i]) != nullptr;
             if (!is_technique && parts[i] != "one-sample") {
                 std::vector<Choosable> allowed = technique_names();
                 allowed.push_back({"one-sample", ""});

@@ -40,6 +40,7 @@ void count_points(Explanation& found, const LitScene& lit, const GBuffer& shadin
     sums.add(lit.tiles_that_call(shading));
     found.shading_points += shading.points.size() + shading.dark.size();
     found.dark_points += shading.dark.size();
+    found.counts.add(shading.counts);
     found.background_pixels += shading.background.size();
     found.tiles += shading.tiles.size();
     for (const Tile& tile : shading.tiles)
@@ -48,7 +49,7 @@ void count_points(Explanation& found, const LitScene& lit, const GBuffer& shadin
 
 }  // namespace
 
-Explanation explain(const LitScene& lit, const AnyExecutor& executor)
+Explanation explain(const LitScene& lit, const AnyExecutor& executor, const StopToken& stop)
 {
     const Scene& scene = lit.scene();
     Explanation found;
@@ -72,20 +73,20 @@ Explanation explain(const LitScene& lit, const AnyExecutor& executor)
             if (row <= found.height / 2) some = spread_tiles(band, most_tiles_of_savings);
         }
     } else {
-        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces());
+        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces(), executor);
         lit.plan(probes, executor);
         count_points(found, lit, probes, sums);
         some = spread_tiles(probes, most_tiles_of_savings);
     }
     if (scene.camera && !scene.probes.empty()) {  // they call for effects, too
-        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces());
+        GBuffer probes = probe_points(scene, lit.lights(), lit.surfaces(), executor);
         lit.plan(probes, executor);
         sums.add(lit.tiles_that_call(probes));
         found.tiles += probes.tiles.size();
     }
     found.probes = scene.probes.size();
     found.effects = explained(scene, lit.effects(), sums.of(found.tiles));
-    measure_savings(lit, some, found.effects);
+    measure_savings(lit, some, found.effects, stop);
     found.light_bytes = scene.lights.size() * sizeof(Light);
     found.hierarchy_bytes = lit.lights().bytes();
     return found;

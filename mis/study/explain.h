@@ -6,6 +6,6 @@
 namespace mis {
 
 /// Finds out what a scene is made of and what it calls for.
-Explanation explain(const LitScene& lit, const AnyExecutor& executor);
+Explanation explain(const LitScene& lit, const AnyExecutor& executor, const StopToken& stop = {});
 
 }  // namespace mis

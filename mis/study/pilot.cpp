@@ -1,5 +1,6 @@
 #include "mis/study/pilot.h"
 
+#include "mis/stats/exactness.h"
 #include "mis/stats/pool.h"
 
 #include <algorithm>
@@ -15,8 +16,9 @@ constexpr std::size_t few_strategies = 6;
 
 StrategyRun sampled(const StudyGround& ground, const Strategy& strategy, int samples)
 {
-    StrategyRun run(ground.scene, ground.points, strategy, ~ground.seed);
-    run.sample_apart(samples, ground.workspaces, ground.executor);
+    StrategyRun run(ground.scene, ground.points, strategy, ~ground.seed, ground.stop);
+    if (!run.sample_apart(samples, ground.workspaces, ground.executor, ground.stop))
+        throw Stopped();
     return run;
 }
 
@@ -24,15 +26,17 @@ StrategyRun sampled(const StudyGround& ground, const Strategy& strategy, int sam
 void add_benefit(std::vector<double>& benefit, const StrategyRun& run, const StudyPoints& points)
 {
     std::vector<double> fourth(benefit.size());
-    double variance = 0;
+    double variance = 0, squares = 0;
     for (std::size_t t = 0; t < benefit.size(); ++t) {
         const Tile& tile = points.shading.tiles[t];
         for (const PointResult& result : run.results().subspan(tile.first, tile.count)) {
             variance += result.luminance.variance();
+            squares += result.luminance.mean * result.luminance.mean;
             fourth[t] += result.luminance.m4;
         }
     }
-    if (!(variance > 0)) return;
+    const double of_rounding = rounding_of_samples * rounding_of_samples * squares;
+    if (!(variance > of_rounding)) return;  // exact, as it seems: it needs no more samples anywhere
     for (std::size_t t = 0; t < benefit.size(); ++t)
         benefit[t] += fourth[t] / (variance * variance);
 }
@@ -62,7 +66,7 @@ std::vector<double> best_tile_factors(const StudyGround& ground,
     std::vector<double> benefit(points.figure_tiles);
     const int samples = strategies.size() <= few_strategies ? 4 * pilot_samples : pilot_samples;
     for (const Strategy& strategy : strategies)
-        if (!ground.is_stopped()) add_benefit(benefit, sampled(ground, strategy, samples), points);
+        add_benefit(benefit, sampled(ground, strategy, samples), points);
     double mean = 0;
     std::vector<double> wanted(benefit.size());
     for (std::size_t t = 0; t < benefit.size(); ++t) {

@@ -2,20 +2,21 @@
 
 #include "mis/study/strategy_run.h"
 
-#include <atomic>
+#include "mis/math/stop_token.h"
 
 namespace mis {
 
-/// What all that samples a scene needs: where, with what and how.
+/// What all that samples a scene needs: where, with what, how, and until when:
+/// what is worth nothing before it is done throws Stopped.
 struct StudyGround {
     const LitScene& scene;
     const StudyPoints& points;
     WorkspacePool<float>& workspaces;
     const AnyExecutor& executor;
     std::uint64_t seed = 1;
-    const std::atomic<bool>* stop = nullptr;
+    StopToken stop = {};
 
-    bool is_stopped() const { return stop != nullptr && *stop; }
+    bool is_stopped() const { return stop.is_up(); }
 };
 
 /// 1/(μ² + ε²) of every point, from a rough picture; 0 where that is black. Its samples count for

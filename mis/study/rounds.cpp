@@ -46,7 +46,8 @@ void StudyRounds::take_round(const Allocation& allocation, int first, int end, i
         if (ground_.is_stopped()) return;
         if (runs_[s] && !options.rests[s])
             runs_[s]->sample_round({allocation, first, end, replicates, !any_rests},
-                                   options.weights, ground_.workspaces, ground_.executor);
+                                   options.weights, ground_.workspaces, ground_.executor,
+                                   ground_.stop);
         after_turn_(s, static_cast<double>(++done) / static_cast<double>(order.size()));
     }
 }

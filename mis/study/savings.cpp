@@ -11,48 +11,39 @@ namespace {
 
 constexpr int repetitions = 7, samples_of_run = 4;
 
-/// An effect that its tile says: where, and by which proof of single lights.
-struct OfTiles {
-    const char* name;
-    bool Effects::*of_scene;
-    bool TilePlan::*effect;
-    std::uint8_t proof;
-};
-constexpr std::array of_tiles{
-    OfTiles{"shadows", &Effects::shadows, &TilePlan::shadows, unshadowed},
-    OfTiles{"light_occlusion", &Effects::light_occlusion, &TilePlan::light_occlusion, unhidden},
-    OfTiles{"horizon", &Effects::horizon, &TilePlan::horizon, 0}};
+/// What proves of a tile's single lights that they do not call for an effect.
+LightProof proof_of(Effect effect)
+{
+    switch (effect) {
+        case Effect::shadows: return unshadowed;
+        case Effect::light_occlusion: return unhidden;
+        default: return {};
+    }
+}
 
-/// One that the scene or a material says.
-struct OfMaterials {
-    const char* name;
-    bool Effects::*effect;
-};
-constexpr std::array of_materials{OfMaterials{"specular", &Effects::specular},
-                                  OfMaterials{"choice", &Effects::choice},
-                                  OfMaterials{"colour", &Effects::colour}};
-
-/// The buffer with an effect simulated for every tile and light again.
-GBuffer with_effect(GBuffer shading, const OfTiles& of)
+/// The buffer with an effect of its tiles simulated for every tile and light again.
+GBuffer with_effect(GBuffer shading, Effect effect)
 {
     for (Tile& tile : shading.tiles) {
-        tile.plan.*of.effect = true;
-        if (of.proof == unhidden) tile.plan.blockers = nullptr;
+        tile.plan.effects.set(effect, true);
+        if (effect == Effect::light_occlusion) tile.plan.blockers = nullptr;
         for (std::uint8_t& proofs : tile.plan.lights)
-            proofs = static_cast<std::uint8_t>(proofs & ~of.proof);
+            proofs = static_cast<std::uint8_t>(proofs & ~proof_of(effect));
     }
     return shading;
 }
 
 TileTotals run(const ReadyStrategy<float>& strategy, Workspace<float>& workspace,
-               const GBuffer& shading)
+               const GBuffer& shading, const StopToken& stop)
 {
     TileTotals totals;
     for (const Tile& tile : shading.tiles) {
         std::vector<PointResult> results(tile.count);
-        totals.add(workspace.run(
-            strategy.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
-            strategy.pipeline(tile), {.chunk = samples_of_run, .chunks = 1}, results, {}, {}));
+        TileJob<float> job =
+            strategy.job(tile, std::span(shading.points).subspan(tile.first, tile.count));
+        job.stop = &stop;
+        totals.add(workspace.run(job, strategy.pipeline(tile),
+                                 {.chunk = samples_of_run, .chunks = 1}, results, {}, {}));
     }
     return totals;
 }
@@ -63,19 +54,21 @@ struct Way {
     const GBuffer& shading;
 };
 
-void measure(const Way& lean, const Way& full, EffectPlan& effect)
+void measure(const Way& lean, const Way& full, const StopToken& stop, EffectPlan& effect)
 {
     Workspace<float> workspace;
     std::array<double, repetitions> saved{};
+    double saved_rays = 0;
     for (double& seconds : saved) {
-        const TileTotals with = run(full.strategy, workspace, full.shading),
-                         without = run(lean.strategy, workspace, lean.shading);
+        const TileTotals with = run(full.strategy, workspace, full.shading, stop),
+                         without = run(lean.strategy, workspace, lean.shading, stop);
         const double count = static_cast<double>(with.samples);
         seconds = (with.seconds - without.seconds) / count;
-        effect.saved_rays_per_sample =
+        saved_rays =
             (static_cast<double>(with.shadow_rays) - static_cast<double>(without.shadow_rays)) /
             count;
     }
+    effect.saved_rays_per_sample = saved_rays;
     std::sort(saved.begin(), saved.end());
     // Time that noise hides is not shown: six of seven pairs must save some (chance: once in 16).
     const bool is_resolved = saved[1] > 0;
@@ -99,23 +92,21 @@ GBuffer spread_tiles(const GBuffer& shading, std::size_t most)
 }
 
 void measure_savings(const LitScene& scene, const GBuffer& shading,
-                     std::vector<EffectPlan>& effects)
+                     std::vector<EffectPlan>& effects, const StopToken& stop)
 {
     if (!scene.effects().by_tile || shading.tiles.empty()) return;
-    const auto ready = [&](const Effects& also) {
+    const auto ready = [&](EffectSet also) {
         return ReadyStrategy<float>(scene, parse_strategy("uniform/power"), kernels<float>(), 1,
-                                    also);
+                                    also, stop);
     };
-    const ReadyStrategy<float> strategy = ready(no_effects);
-    for (EffectPlan& effect : effects) {
-        for (const OfTiles& of : of_tiles)
-            if (effect.name == of.name && scene.effects().*of.of_scene)
-                measure({strategy, shading}, {strategy, with_effect(shading, of)}, effect);
-        for (const OfMaterials& of : of_materials) {
-            if (effect.name != of.name || effect.share == 1) continue;
-            Effects also = no_effects;
-            also.*of.effect = true;
-            measure({strategy, shading}, {ready(also), shading}, effect);
+    const ReadyStrategy<float> strategy = ready({});
+    for (EffectPlan& plan : effects) {
+        const Effect effect = find_effect(plan.name).value();
+        if (!effects_of_tiles.has(effect)) {
+            if (plan.share < 1)
+                measure({strategy, shading}, {ready({effect}), shading}, stop, plan);
+        } else if (scene.effects().on.has(effect)) {
+            measure({strategy, shading}, {strategy, with_effect(shading, effect)}, stop, plan);
         }
     }
 }

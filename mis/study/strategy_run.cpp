@@ -8,12 +8,12 @@
 namespace mis {
 
 StrategyRun::StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
-                         const NumberSource& numbers)
+                         const NumberSource& numbers, const StopToken& stop)
     : points_(&points),
       samples_per_observation_(numbers.is_sobol() ? static_cast<int>(numbers.samples_per_scrambling)
                                                   : 1),
-      ready_(scene, strategy, kernels<float>(), numbers), results_(points.shading.points.size()),
-      tiles_(points.shading.tiles.size())
+      ready_(scene, strategy, kernels<float>(), numbers, {}, stop),
+      results_(points.shading.points.size()), tiles_(points.shading.tiles.size())
 {
 }
 
@@ -21,34 +21,51 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
                                                std::span<const double> weights,
                                                std::vector<std::vector<ChunkTotals>>& totals,
                                                WorkspacePool<float>& workspaces,
-                                               const AnyExecutor& executor)
+                                               const AnyExecutor& executor, const StopToken& stop)
 {
     const GBuffer& shading = points_->shading;
     std::vector<TileTotals> costs(shading.tiles.size());
     totals.assign(shading.tiles.size(), std::vector<ChunkTotals>(static_cast<std::size_t>(chunks)));
-    executor.for_each(shading.tiles.size(), [&](std::size_t t) {
+    const auto run_tile = [&](std::size_t t) {
         const Tile& tile = shading.tiles[t];
         const SampleRange range{tiles_[t].samples_per_point, allocation[t], chunks,
                                 samples_per_observation_};
+        TileJob<float> job =
+            ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count));
+        job.stop = &stop;
         workspaces.with([&](Workspace<float>& workspace) {
             costs[t] = workspace.run(
-                ready_.job(tile, std::span(shading.points).subspan(tile.first, tile.count)),
-                ready_.pipeline(tile), range, std::span(results_).subspan(tile.first, tile.count),
+                job, ready_.pipeline(tile), range,
+                std::span(results_).subspan(tile.first, tile.count),
                 weights.empty() ? weights : weights.subspan(tile.first, tile.count), totals[t]);
         });
         tiles_[t].samples_per_point += static_cast<std::uint64_t>(range.samples());
         tiles_[t].cost.add(costs[t]);
-    });
+    };
+    try {
+        stoppable(executor, stop).for_each(shading.tiles.size(), run_tile);
+    } catch (const Stopped&) {
+        if (samples_ == 0) forget();  // not even a first sample of every point
+        return {};
+    }
     for (std::size_t t = 0; t < points_->figure_tiles; ++t) samples_ += costs[t].samples;
     return costs;
 }
 
-void StrategyRun::sample_round(const Round& round, std::span<const double> weights,
-                               WorkspacePool<float>& workspaces, const AnyExecutor& executor)
+void StrategyRun::forget()
+{
+    results_.assign(results_.size(), {});
+    tiles_.assign(tiles_.size(), {});
+}
+
+bool StrategyRun::sample_round(const Round& round, std::span<const double> weights,
+                               WorkspacePool<float>& workspaces, const AnyExecutor& executor,
+                               const StopToken& stop)
 {
     std::vector<std::vector<ChunkTotals>> totals;
-    const std::vector<TileTotals> costs =
-        run_tiles(round.allocation, round.end - round.first, weights, totals, workspaces, executor);
+    const std::vector<TileTotals> costs = run_tiles(round.allocation, round.end - round.first,
+                                                    weights, totals, workspaces, executor, stop);
+    if (costs.empty() && !tiles_.empty()) return false;
     for (std::size_t t = 0; t < tiles_.size(); ++t) {
         TileSums& tile = tiles_[t];
         tile.replicates.resize(static_cast<std::size_t>(round.replicates));
@@ -63,13 +80,16 @@ void StrategyRun::sample_round(const Round& round, std::span<const double> weigh
         }
     }
     if (round.is_timed) times_.push_back(observed(costs));
+    return true;
 }
 
-void StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces,
-                               const AnyExecutor& executor)
+bool StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces,
+                               const AnyExecutor& executor, const StopToken& stop)
 {
     std::vector<std::vector<ChunkTotals>> totals;
-    run_tiles(Allocation(tiles_.size(), count), 1, {}, totals, workspaces, executor);
+    const std::vector<TileTotals> costs =
+        run_tiles(Allocation(tiles_.size(), count), 1, {}, totals, workspaces, executor, stop);
+    return !costs.empty() || tiles_.empty();
 }
 
 namespace {
@@ -97,7 +117,7 @@ TimeObservation StrategyRun::observed(std::span<const TileTotals> totals) const
 }
 
 TimeObservation StrategyRun::try_out(int samples, std::size_t points,
-                                     WorkspacePool<float>& workspaces) const
+                                     WorkspacePool<float>& workspaces, const StopToken& stop) const
 {
     TileTotals totals;
     std::size_t tried = 0;
@@ -107,9 +127,11 @@ TimeObservation StrategyRun::try_out(int samples, std::size_t points,
             const Tile& tile = points_->shading.tiles[k * tiles / 4];
             const std::size_t count = std::min<std::size_t>(tile.count, points / 4 + 1);
             std::vector<PointResult> results(count);
-            totals.add(workspace.run(
-                ready_.job(tile, std::span(points_->shading.points).subspan(tile.first, count)),
-                ready_.pipeline(tile), {std::uint64_t{1} << 40, samples, 1}, results, {}, {}));
+            TileJob<float> job =
+                ready_.job(tile, std::span(points_->shading.points).subspan(tile.first, count));
+            job.stop = &stop;
+            totals.add(workspace.run(job, ready_.pipeline(tile),
+                                     {std::uint64_t{1} << 40, samples, 1}, results, {}, {}));
             tried += count;
         }
     });

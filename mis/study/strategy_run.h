@@ -20,8 +20,9 @@ using Allocation = std::vector<int>;
 /// which tile.
 class StrategyRun {
 public:
+    /// Throws Stopped.
     StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
-                const NumberSource& numbers);
+                const NumberSource& numbers, const StopToken& stop = {});
 
     /// What every point gets in a round: allocation[tile] observations for each of the replicates
     /// [first, end) of `replicates`.
@@ -32,18 +33,22 @@ public:
     };
 
     /// The next samples of every point. weights: 1/(μ² + ε²) of every point. Every observation of
-    /// time is of the same mix of points, however unevenly tiles are sampled.
-    void sample_round(const Round& round, std::span<const double> weights,
-                      WorkspacePool<float>& workspaces, const AnyExecutor& executor);
+    /// time is of the same mix of points, however unevenly tiles are sampled. False where it was
+    /// stopped: then the round does not count, though some points keep its samples.
+    bool sample_round(const Round& round, std::span<const double> weights,
+                      WorkspacePool<float>& workspaces, const AnyExecutor& executor,
+                      const StopToken& stop = {});
 
     /// The next observations of every point, `count` of them, outside the replicates: they count in
-    /// the points' moments alone.
-    void sample_apart(int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor);
+    /// the points' moments alone. False where it was
+    /// stopped.
+    bool sample_apart(int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor,
+                      const StopToken& stop = {});
 
     /// CPU seconds per sample and per point's preparation, from `samples` at a few points; leaves
-    /// no trace.
-    TimeObservation try_out(int samples, std::size_t points,
-                            WorkspacePool<float>& workspaces) const;
+    /// no trace. Throws Stopped.
+    TimeObservation try_out(int samples, std::size_t points, WorkspacePool<float>& workspaces,
+                            const StopToken& stop = {}) const;
 
     const Strategy& strategy() const { return ready_.strategy(); }
     std::uint64_t samples() const { return samples_; }  ///< over all shading points
@@ -74,11 +79,13 @@ private:
         TileTotals cost;
         std::uint64_t samples_per_point = 0;
     };
+    /// What the tiles cost; empty where it was stopped.
     std::vector<TileTotals> run_tiles(const Allocation& allocation, int chunks,
                                       std::span<const double> weights,
                                       std::vector<std::vector<ChunkTotals>>& totals,
-                                      WorkspacePool<float>& workspaces,
-                                      const AnyExecutor& executor);
+                                      WorkspacePool<float>& workspaces, const AnyExecutor& executor,
+                                      const StopToken& stop);
+    void forget();  ///< all samples
     TimeObservation observed(std::span<const TileTotals> totals) const;
     void add_replicates(StrategyMeasurements& m) const;
     void add_costs(StrategyMeasurements& m) const;

@@ -1,6 +1,9 @@
 #include "mis/study/study.h"
 
+#include "mis/engine/exact.h"
 #include "mis/engine/stopwatch.h"
+#include "mis/math/limits.h"
+#include "mis/stats/exactness.h"
 #include "mis/stats/rank.h"
 #include "mis/study/affordable.h"
 #include "mis/study/reference.h"
@@ -10,6 +13,7 @@
 #include "mis/study/study_audit.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace mis {
@@ -19,14 +23,19 @@ namespace {
 /// Of the time given, for the first samples of all strategies.
 constexpr double first_share = 0.6;
 
+/// Of the time given, at most until then: what leaving out effects saves has been measured; the
+/// spread of the samples and the audit are known; the first samples begin.
+constexpr double savings_until = 0.1, audit_until = 0.5, first_until = 0.9;
+
 /// One study under way.
 class Scheduler {
 public:
     Scheduler(const LitScene& scene, const std::vector<Strategy>& strategies,
               const StudyOptions& options, const AnyExecutor& executor)
         : scene_(scene), strategies_(strategies), options_(options), goal_(options.goal()),
-          points_(std::make_unique<StudyPoints>(find_study_points(scene, executor))),
-          ground_{scene, *points_, workspaces_, executor, options.seed, options.stop},
+          points_(std::make_unique<StudyPoints>(
+              find_study_points(scene, stoppable(executor, until(1))))),
+          ground_{scene, *points_, workspaces_, executor, options.seed, stop_},
           runs_(strategies.size()), costs_(strategies.size()),
           rounds_(ground_, runs_, [this](std::size_t s, double done) { end_turn(s, done); }),
           reference_(
@@ -48,7 +57,24 @@ public:
     }
 
 private:
-    bool is_stopped() const { return ground_.is_stopped(); }
+    bool is_stopped() const { return stop_.is_up(); }
+
+    /// Up when the study is stopped, and once that share of its time is over.
+    StopToken until(double share) const
+    {
+        if (options_.spp) return stop_;
+        return stop_.until(start_ + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(share * goal_.budget())));
+    }
+
+    /// For work before the first samples, until `stop` is up.
+    StudyGround ground(const StopToken& stop) const
+    {
+        StudyGround until_then = ground_;
+        until_then.stop = stop;
+        return until_then;
+    }
+
     std::size_t lit() const { return points_->figure_lit; }
     double elapsed() const { return seconds_since(start_); }
 
@@ -58,7 +84,23 @@ private:
         const GBuffer& shading = points_->shading;
         report_.effects = explained(scene_.scene(), scene_.effects(),
                                     scene_.tiles_that_call(shading).of(shading.tiles.size()));
-        measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report_.effects);
+        prove_closed_form();
+        try {
+            measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report_.effects,
+                            until(savings_until));
+        } catch (const Stopped&) {  // they stay unmeasured
+        }
+    }
+
+    /// Asked only where some strategy would be exact then.
+    void prove_closed_form()
+    {
+        const auto would_be_exact = [&](const Strategy& s) {
+            return gives_closed_form(scene_.scene(), s);
+        };
+        has_closed_form_ =
+            std::ranges::any_of(strategies_, would_be_exact) &&
+            has_closed_form(scene_, points_->shading, points_->figure_tiles, ground_.executor);
     }
 
     /// What a first look at the costs allows; a rough picture of the scene, for the weights; how
@@ -70,23 +112,70 @@ private:
             for (std::size_t s = 0; s < strategies_.size(); ++s) start_run(s);
             return;
         }
-        const double cpu = options_.spp ? 1e300 : goal_.budget() * ground_.executor.threads;
-        if (!options_.spp) {
-            costs_ = estimate_costs(ground_, strategies_, first_samples * samples_per_observation(),
-                                    first_share * cpu);
-            plan_.parts = parts_for(sum_of_costs(), cpu);
+        const double cpu = options_.spp ? 1e300 : goal_.budget() * threads();
+        if (!options_.spp)
+            costs_ = estimate_costs(ground(until(first_share)), strategies_,
+                                    first_samples * samples_per_observation(), first_share * cpu);
+        try {
+            for (std::size_t s = 0; s < strategies_.size(); ++s)
+                if (costs_[s].is_affordable) start_run(s);
+            how_.weights = rough_weights(ground(until(first_until)));
+            look_ahead(cpu);
+        } catch (const Stopped&) {
+            run_none();
         }
-        std::vector<Strategy> quick;
+        if (!options_.spp) leave_out_late();
+    }
+
+    /// Which tiles need more samples than others, and the audit, as far as there is time.
+    void look_ahead(double cpu)
+    {
+        try {
+            spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, of twos
+            if (spreads_)
+                how_.tile_factors = best_tile_factors(ground(until(audit_until)), quick(cpu));
+            if (!numbers().is_sobol())
+                audit_.emplace(ground(until(audit_until)), how_.weights, that_run());
+            if (audit_ && audit_->is_empty()) audit_.reset();
+        } catch (const Stopped&) {  // all tiles alike; the report says that there is no audit
+        }
+    }
+
+    /// Those whose first samples take little of the time.
+    std::vector<Strategy> quick(double cpu) const
+    {
+        std::vector<Strategy> strategies;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            if (runs_[s] && costs_[s].seconds < 0.05 * cpu) strategies.push_back(strategies_[s]);
+        return strategies;
+    }
+
+    /// The time was over, or the study stopped, before the first sample.
+    void run_none()
+    {
+        for (std::unique_ptr<StrategyRun>& run : runs_) run.reset();
+        for (CostEstimate& cost : costs_) cost.is_affordable = false, cost.is_known = false;
+    }
+
+    /// What the set-up has left of the time must do for the first samples.
+    void leave_out_late()
+    {
+        const double left = (goal_.budget() - elapsed()) * threads();
+        for (CostEstimate& cost : costs_) cost.is_late = cost.is_affordable;
+        keep_affordable(costs_, left);
         for (std::size_t s = 0; s < strategies_.size(); ++s) {
-            if (!costs_[s].is_affordable) continue;
-            start_run(s);
-            if (costs_[s].seconds < 0.05 * cpu) quick.push_back(strategies_[s]);
+            costs_[s].is_late = costs_[s].is_late && !costs_[s].is_affordable;
+            if (!costs_[s].is_affordable) runs_[s].reset();
         }
-        if (is_stopped()) return;
-        how_.weights = rough_weights(ground_);
-        spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, all of twos
-        if (spreads_) how_.tile_factors = best_tile_factors(ground_, quick);
-        if (!numbers().is_sobol()) audit_.emplace(ground_, how_.weights, that_run());
+        plan_.parts = parts_for(sum_of_costs(), std::max(left, 1e-9));
+    }
+
+    /// Those that find work: no more than tiles.
+    int threads() const
+    {
+        return std::max(
+            1, std::min(ground_.executor.threads,
+                        static_cast<int>(std::min<std::size_t>(points_->figure_tiles, 1 << 20))));
     }
 
     NumberSource numbers() const { return {options_.seed, options_.samples_per_scrambling}; }
@@ -98,7 +187,8 @@ private:
 
     void start_run(std::size_t s)
     {
-        runs_[s] = std::make_unique<StrategyRun>(scene_, *points_, strategies_[s], numbers());
+        runs_[s] = std::make_unique<StrategyRun>(scene_, *points_, strategies_[s], numbers(),
+                                                 until(first_until));
     }
 
     std::vector<Strategy> that_run() const
@@ -145,14 +235,14 @@ private:
         if (plan_.remainder > 0)
             for (auto& run : runs_)
                 if (run && !is_stopped())
-                    run->sample_apart(plan_.remainder, workspaces_, ground_.executor);
+                    run->sample_apart(plan_.remainder, workspaces_, ground_.executor, stop_);
     }
 
     void run_time()
     {
         if (lit() == 0) return;
         double samples = 0, last_look = 0, round_seconds = 0;  // of one sample per replicate
-        while (!is_stopped()) {
+        while (!is_stopped() && !that_run().empty()) {
             const int chunk = next_chunk(static_cast<int>(rounds_.count()) / plan_.parts,
                                          goal_.budget() - elapsed(), round_seconds);
             if (chunk == 0) return;
@@ -177,7 +267,10 @@ private:
         std::vector<Strategy> awake;
         for (std::size_t s = 0; s < how_.rests.size(); ++s)
             if (runs_[s] && !how_.rests[s]) awake.push_back(strategies_[s]);
-        how_.tile_factors = best_tile_factors(ground_, awake);
+        try {
+            how_.tile_factors = best_tile_factors(ground(until(1)), awake);
+        } catch (const Stopped&) {  // as before
+        }
     }
 
     /// share: of the probabilities of error that this look spends.
@@ -204,14 +297,17 @@ private:
         report_.epsilon = reference_.epsilon();
         report_.seconds = elapsed();
         report_.lacks_audit = !audit_ && !is_dark();
+        report_.had_no_time_for_audit = report_.lacks_audit && !numbers().is_sobol();
     }
 
     StrategyMeasurements measured(std::size_t s, const RelativeScale& scale) const
     {
         if (!runs_[s]) return not_run(s);
         StrategyMeasurements m = runs_[s]->measurements(scale);
-        m.all_samples_equal_reference = is_dark();
         if (audit_) audit_->add_to(m, runs_[s]->results());
+        m.is_proved_exact =
+            is_dark() || (has_closed_form_ && gives_closed_form(scene_.scene(), strategies_[s]));
+        m.all_samples_equal_reference = exactness_of(m) != Exactness::none;
         return m;
     }
 
@@ -220,12 +316,18 @@ private:
         StrategyMeasurements m;
         m.strategy = strategies_[s];
         m.was_run = false;
-        m.estimated_seconds = costs_[s].seconds;
-        if (costs_[s].is_affordable) m.not_run_reason = reason::Stopped{};
-        else
-            m.not_run_reason = reason::PastBudget{
-                static_cast<double>(first_samples * samples_per_observation()), first_share};
+        m.estimated_seconds = costs_[s].is_known ? costs_[s].seconds : nan;
+        m.not_run_reason = why_not_run(costs_[s]);
         return m;
+    }
+
+    Reason why_not_run(const CostEstimate& cost) const
+    {
+        if (cost.is_affordable || (!cost.is_known && is_stopped())) return reason::Stopped{};
+        if (!cost.is_known) return reason::NotReady{};
+        if (cost.is_late) return reason::LateSetUp{};
+        return reason::PastBudget{static_cast<double>(first_samples * samples_per_observation()),
+                                  first_share};
     }
 
     /// No light, or no point that can be lit: every sample is 0, as the mean is.
@@ -247,6 +349,7 @@ private:
     const std::vector<Strategy>& strategies_;
     const StudyOptions& options_;
     const StudyGoal goal_;
+    StopToken stop_{options_.stop};
     Clock::time_point start_ = Clock::now();
     std::unique_ptr<StudyPoints> points_;
     WorkspacePool<float> workspaces_;
@@ -257,7 +360,8 @@ private:
     std::optional<StudyAudit> audit_;
     SamplePlan plan_;
     RoundOptions how_;
-    bool spreads_ = false;  ///< samples over tiles
+    bool spreads_ = false;          ///< samples over tiles
+    bool has_closed_form_ = false;  ///< at every point of the figures: proved
     StudyRounds rounds_;
     StudyReference reference_;
     ErrorSpending spending_;

@@ -38,7 +38,9 @@ struct Study {
     std::vector<double> reference_weights;           ///< [strategy]: of its means in the reference
 };
 
-/// Samples the strategies in small alternating rounds and ranks them, until it is time to stop.
+/// Samples the strategies in small alternating rounds and ranks them, until it is time to stop. The
+/// time begins here: all that is prepared counts. Throws Stopped where it is over, or *options.stop
+/// set, before the shading points are found.
 Study run_study(const LitScene& scene, const std::vector<Strategy>& strategies,
                 const StudyOptions& options, const AnyExecutor& executor);
 

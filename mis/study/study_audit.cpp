@@ -4,20 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 namespace mis {
 
 namespace {
 
-int material_of(const StudyPoints& points, std::size_t point)
-{
-    const std::vector<Tile>& tiles = points.shading.tiles;
-    const auto after =
-        std::upper_bound(tiles.begin(), tiles.end(), point,
-                         [](std::size_t p, const Tile& tile) { return p < tile.first; });
-    return std::prev(after)->material;
-}
+/// Rounds at each point that count, at least, and so many over all points.
+constexpr std::size_t fewest_rounds = 2, fewest_looks = 2048;
 
 /// How many points can be audited: the tables of their policies take the time.
 std::size_t affordable_points(const StudyGround& ground, std::span<const Strategy> strategies)
@@ -33,24 +27,28 @@ std::size_t affordable_points(const StudyGround& ground, std::span<const Strateg
 
 StudyAudit::StudyAudit(const StudyGround& ground, std::span<const double> weights,
                        std::span<const Strategy> strategies)
-    : points_(spread_points(ground.points, affordable_points(ground, strategies)))
 {
-    std::vector<AuditPoint> at;
+    points_ = spread_points(ground.points, affordable_points(ground, strategies));
+    if (points_.empty()) return;
+    std::vector<SharedPoint> at;
     for (const std::size_t p : points_) {
         weights_.push_back(weights[p]);
-        at.push_back({ground.points.shading.points[p], material_of(ground.points, p), weights[p]});
+        at.push_back({ground.points.shading.points[p], ground.points.material_of(p)});
     }
-    const std::vector<AuditEstimate> estimates =
-        audit(ground.scene, at, strategies, ground.seed, ground.executor);
+    SharedSamples shared(ground.scene, std::move(at), strategies,
+                         {.seed = ground.seed, .stop = ground.stop});
+    shared.take(1 + static_cast<int>(std::max(fewest_rounds, fewest_looks / points_.size())),
+                ground.executor);
+    if (!shared.is_even()) return;
     for (std::size_t s = 0; s < strategies.size(); ++s)
-        estimates_[name_of(strategies[s])] = estimates[s];
+        estimates_[name_of(strategies[s])] = {shared.mean(s), shared.mean(s, weights_)};
 }
 
 void StudyAudit::add_to(StrategyMeasurements& m, std::span<const PointResult> results) const
 {
     const auto found = estimates_.find(name_of(m.strategy));
-    if (found == estimates_.end() || !found->second.available) return;
-    const AuditEstimate& others = found->second;
+    if (found == estimates_.end()) return;
+    const auto& [variance_there, relative_there] = found->second;
     const double n = static_cast<double>(points_.size());
     double squares = 0, relative_squares = 0;
     Audit own{.available = true, .relative_available = true};
@@ -65,10 +63,10 @@ void StudyAudit::add_to(StrategyMeasurements& m, std::span<const PointResult> re
     }
     own.own_variance_se = std::sqrt(squares);
     own.own_relative_variance_se = std::sqrt(relative_squares);
-    own.variance_from_others = others.variance;
-    own.variance_from_others_se = others.variance_se;
-    own.relative_variance_from_others = others.relative_variance;
-    own.relative_variance_from_others_se = others.relative_variance_se;
+    own.variance_from_others = std::max(variance_there.value, 0.0);
+    own.variance_from_others_se = variance_there.se;
+    own.relative_variance_from_others = std::max(relative_there.value, 0.0);
+    own.relative_variance_from_others_se = relative_there.se;
     m.audit = own;
 }
 

@@ -1,6 +1,7 @@
 #include "mis/study/study_points.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace mis {
 
@@ -17,6 +18,15 @@ void append(GBuffer& all, const GBuffer& more)
 
 }  // namespace
 
+int StudyPoints::material_of(std::size_t point) const
+{
+    const std::vector<Tile>& tiles = shading.tiles;
+    const auto after =
+        std::upper_bound(tiles.begin(), tiles.end(), point,
+                         [](std::size_t p, const Tile& tile) { return p < tile.first; });
+    return std::prev(after)->material;
+}
+
 StudyPoints find_study_points(const LitScene& scene, const AnyExecutor& executor)
 {
     StudyPoints points;
@@ -24,7 +34,7 @@ StudyPoints find_study_points(const LitScene& scene, const AnyExecutor& executor
     if (camera)
         points.shading = find_shading_points(scene.scene(), scene.lights(), scene.surfaces(), 0,
                                              camera->resolution[1], executor);
-    const GBuffer probes = probe_points(scene.scene(), scene.lights(), scene.surfaces());
+    const GBuffer probes = probe_points(scene.scene(), scene.lights(), scene.surfaces(), executor);
     points.figure_points = camera ? points.shading.points.size() + points.shading.dark.size()
                                   : scene.scene().probes.size();
     points.figure_tiles = camera ? points.shading.tiles.size() : probes.tiles.size();

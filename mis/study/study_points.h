@@ -20,6 +20,7 @@ struct StudyPoints {
     std::size_t regions = 0;                ///< of the image, for the bias test
 
     std::size_t region_of(std::size_t tile) const { return tile * regions / figure_tiles; }
+    int material_of(std::size_t point) const;
     FigurePoints figures(bool has_camera) const { return {figure_lit, figure_points, has_camera}; }
 };
 

@@ -8,6 +8,7 @@ namespace mis {
 struct BrdfTechnique {
     static constexpr std::string_view name = "brdf";
     static constexpr std::string_view summary = "the BSDF's own draw";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     static constexpr bool chooses_light = false, asks_bsdf = true;
     template <class B, class T>
     MIS_INLINE static Vec3<T> sample(const B& bsdf, const Vec3<T>& wo, const T& lobe,

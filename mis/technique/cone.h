@@ -11,9 +11,9 @@ struct ConeTechnique {
     static constexpr std::string_view summary = "uniform over the cap of the chosen light";
     static constexpr bool chooses_light = true, sums_lights = false;
     template <class T>
-    MIS_INLINE static CapDraw<T> draw(const Cap<T>& cap, const Vec3<T>&, const Vec2<T>& u)
+    MIS_INLINE static CapDraw<T> draw(const Cap<T>& cap, const Vec3<T>& n, const Vec2<T>& u)
     {
-        return sample_cone(cap, u);
+        return sample_cone_over(cap, n, u);
     }
     template <class T> MIS_INLINE static T pdf(const Cap<T>& cap, const Vec3<T>&, const T&)
     {

@@ -12,6 +12,7 @@ struct ProjectedTechnique {
     static constexpr std::string_view summary =
         "in proportion to the cosine over the chosen light's cap, above the horizon";
     static constexpr bool chooses_light = true, sums_lights = false;
+    static constexpr bool draws_by_irradiance = true;  ///< the density is cos θ/E
     template <class T>
     MIS_INLINE static CapDraw<T> draw(const Cap<T>& cap, const Vec3<T>& n, const Vec2<T>& u)
     {

@@ -10,7 +10,9 @@
 namespace mis {
 
 // Which direction, and how dense? Light techniques draw inside the cap of a chosen light; direction
-// techniques draw over the hemisphere, from the BSDF or without it.
+// techniques draw over the hemisphere, from the BSDF or without it; they are strategies
+// by themselves, and may have ranked_by_default(lights, has_lobes), as a policy
+// (policy/light_choice.h).
 
 /// A technique that draws in a cap. `n` is the shading normal. sums_lights: its density is the sum
 /// over all lights whose cap holds the direction, and its radiance that of whichever is nearest

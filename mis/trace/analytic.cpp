@@ -69,4 +69,10 @@ double AnalyticTracer::offset_at(const Vec3<double>& x) const
     return offset_of_point(*scene_, x, origin());
 }
 
+void AnalyticTracer::offsets_at(std::span<const Vec3<double>> points, std::span<double> offsets,
+                                const ForEach& for_each) const
+{
+    offsets_of_points(*scene_, points, origin(), for_each, offsets);
+}
+
 }  // namespace mis

@@ -18,6 +18,8 @@ public:
                                         const Vec3<double>& direction) const override;
     Vec3<double> origin() const override;
     double offset_at(const Vec3<double>& x) const override;
+    void offsets_at(std::span<const Vec3<double>> points, std::span<double> offsets,
+                    const ForEach& for_each) const override;
 
 private:
     const Scene* scene_;

@@ -162,15 +162,29 @@ double scale_of(const Scene& scene, const Vec3<double>& origin)
 
 }  // namespace
 
+std::string embree_error(int code)
+{
+    switch (code) {
+        case RTC_ERROR_NONE: return "no error";
+        case RTC_ERROR_UNKNOWN: return "an error that it does not know";
+        case RTC_ERROR_INVALID_ARGUMENT: return "an argument that it does not take";
+        case RTC_ERROR_INVALID_OPERATION: return "an operation that it does not allow";
+        case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
+        case RTC_ERROR_UNSUPPORTED_CPU: return "this processor is not supported";
+        case RTC_ERROR_CANCELLED: return "it was cancelled";
+        default: return "error " + std::to_string(code);
+    }
+}
+
 /// Embree's device and scene, and which surface a geometry is.
 struct EmbreeTracer::Trees {
-    explicit Trees(const Scene& s)
+    Trees(const Scene& s, const StopToken& stop)
         : scene(s), origin(frame_origin_of(s)), scale(scale_of(s, origin))
     {
         device = rtcNewDevice(nullptr);
         if (device == nullptr)
-            throw std::runtime_error("Embree does not start: error " +
-                                     std::to_string(rtcGetDeviceError(nullptr)));
+            throw std::runtime_error("Embree does not start: " +
+                                     embree_error(rtcGetDeviceError(nullptr)));
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
             widest_packet = 16;
         else if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0)
@@ -178,16 +192,11 @@ struct EmbreeTracer::Trees {
         tree = rtcNewScene(device);
         rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
         try {
-            add_all();
+            add_all(stop);
+            commit(stop);
         } catch (...) {
             release();
             throw;
-        }
-        rtcCommitScene(tree);
-        if (rtcGetDeviceError(device) != RTC_ERROR_NONE) {
-            release();
-            throw std::runtime_error(
-                "Embree could not build a tree over the surfaces of the scene");
         }
     }
     ~Trees() { release(); }
@@ -200,15 +209,33 @@ struct EmbreeTracer::Trees {
         rtcReleaseDevice(device);
     }
 
-    void add_all()
+    /// Builds the tree. Embree asks now and then whether it is to go on.
+    void commit(const StopToken& stop) const
+    {
+        StopToken asked = stop;
+        rtcSetSceneProgressMonitorFunction(
+            tree, [](void* token, double) { return !static_cast<StopToken*>(token)->is_up(); },
+            &asked);
+        rtcCommitScene(tree);
+        rtcSetSceneProgressMonitorFunction(tree, nullptr, nullptr);
+        const RTCError error = rtcGetDeviceError(device);
+        if (error == RTC_ERROR_CANCELLED) throw Stopped();
+        if (error != RTC_ERROR_NONE)
+            throw std::runtime_error(
+                "Embree could not build a tree over the surfaces of the scene: " +
+                embree_error(error));
+    }
+
+    void add_all(const StopToken& stop)
     {
         std::vector<std::size_t> quads;
         for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+            stop.check();
             const auto& shape = scene.surfaces[s].shape;
             if (std::holds_alternative<Quad>(shape)) quads.push_back(s);
             else if (const auto* sphere = std::get_if<SphereSurface>(&shape))
                 spheres.push_back({(sphere->center - origin) * scale, sphere->radius * scale, s});
-            else add_mesh(std::get<Mesh>(shape), s);
+            else add_mesh(std::get<Mesh>(shape), s, stop);
         }
         if (!quads.empty()) add_quads(std::move(quads));
         if (!spheres.empty()) add_spheres();
@@ -220,16 +247,20 @@ struct EmbreeTracer::Trees {
         vertices[3 * i] = v.x, vertices[3 * i + 1] = v.y, vertices[3 * i + 2] = v.z;
     }
 
-    void add_mesh(const Mesh& mesh, std::size_t surface)
+    void add_mesh(const Mesh& mesh, std::size_t surface, const StopToken& stop)
     {
+        StopEvery check(stop, 1 << 16);
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3,
                                           mesh.positions.size());
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i) put(vertices, i, mesh.positions[i]);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            check(), put(vertices, i, mesh.positions[i]);
         auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3,
                                             mesh.triangles.size());
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            check();
             for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i][k];
+        }
         attach(geometry, {surface});
     }
 
@@ -298,7 +329,10 @@ void occluded_in(RTCSceneTy* scene, std::span<const ShadowRay> rays, std::span<s
     answer_in_packets<RTCRay8, 8>(scene, 1, rays, hidden);
 }
 
-EmbreeTracer::EmbreeTracer(const Scene& scene) : trees_(std::make_unique<Trees>(scene)) {}
+EmbreeTracer::EmbreeTracer(const Scene& scene, const StopToken& stop)
+    : trees_(std::make_unique<Trees>(scene, stop))
+{
+}
 EmbreeTracer::~EmbreeTracer() = default;
 
 void EmbreeTracer::occluded(std::span<const ShadowRay> rays, std::span<std::uint8_t> hidden) const
@@ -334,6 +368,12 @@ Vec3<double> EmbreeTracer::origin() const { return trees_->origin; }
 double EmbreeTracer::offset_at(const Vec3<double>& x) const
 {
     return offset_of_point(trees_->scene, x, trees_->origin);
+}
+
+void EmbreeTracer::offsets_at(std::span<const Vec3<double>> points, std::span<double> offsets,
+                              const ForEach& for_each) const
+{
+    offsets_of_points(trees_->scene, points, trees_->origin, for_each, offsets);
 }
 
 }  // namespace mis

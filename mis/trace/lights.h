@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/math/sphere.h"
+#include "mis/math/stop_token.h"
 #include "mis/scene/light.h"
 #include "mis/trace/beam.h"
 #include "mis/trace/light_boxes.h"
@@ -35,8 +36,8 @@ inline bool stands_before(const LightHit& a, const LightHit& b)
 /// over all lights. Directions are unit vectors.
 class LightHierarchy {
 public:
-    /// Keeps a reference to the lights.
-    explicit LightHierarchy(const Lights& lights);
+    /// Keeps a reference to the lights. Throws Stopped.
+    explicit LightHierarchy(const Lights& lights, const StopToken& stop = {});
 
     /// Light j has become another sphere, and stood where `before` says: the boxes around it are
     /// made anew, O(log M) of them, and nothing allocates. Answers are those of a new hierarchy;

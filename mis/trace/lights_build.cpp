@@ -127,6 +127,7 @@ private:
 /// Splits by the surface-area heuristic over 16 bins of the centres (Wald 2007), eight at a time.
 struct LightHierarchy::Builder {
     LightHierarchy& tree;
+    const StopToken& stop;
     LargeVector<Item> items = {};
     LargeVector<LightIndex> leaves = {};  ///< the order in which nodes name their lights
 
@@ -213,6 +214,7 @@ struct LightHierarchy::Builder {
     /// the walk's stack.
     std::uint32_t split(const Range& range, int depth)
     {
+        stop.check();
         const auto begin = items.begin() + range.first, end = items.begin() + range.end;
         RoughBox centers;
         for (auto item = begin; item != end; ++item)
@@ -272,11 +274,11 @@ struct LightHierarchy::Builder {
     }
 };
 
-LightHierarchy::LightHierarchy(const Lights& lights) : lights_(&lights)
+LightHierarchy::LightHierarchy(const Lights& lights, const StopToken& stop) : lights_(&lights)
 {
     if (lights.empty()) return;
     origin_ = middle_of(lights);
-    Builder builder{*this};
+    Builder builder{*this, stop};
     builder.run();
     order_ = std::move(builder.leaves);
     nodes_.shrink_to_fit();

@@ -1,6 +1,12 @@
 #include "mis/trace/surface_points.h"
 
+#include "mis/math/limits.h"
 #include "mis/trace/intersect.h"
+#include "mis/trace/point_tree.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace mis {
 
@@ -38,7 +44,7 @@ SurfaceHit facing(const Vec3<double>& x, Vec3<double> geometric, Vec3<double> n,
                   double offset, const Vec3<double>& direction, int material)
 {
     if (dot(geometric, direction) > 0) geometric = -geometric;
-    if (dot(n, geometric) < 0) n = -n;
+    if (dot(n, direction) > 0) n = -n;
     return {x, geometric, n, distance, offset, material};
 }
 
@@ -63,6 +69,90 @@ bool lies_on(const Vec3<double>& x, const Plane& plane, bool is_triangle)
     return at.u >= -slack && at.v >= -slack &&
            (is_triangle ? at.u + at.v : std::max(at.u, at.v)) <= 1 + slack;
 }
+
+/// Two corners of a box.
+struct PlaneBox {
+    Vec3<double> low, high;
+};
+
+/// Around all points that lie on the plane's triangle or parallelogram, as lies_on says, with room
+/// for its rounding; all of space, where that is not known.
+PlaneBox box_of(const Plane& plane, bool is_triangle)
+{
+    const double a = length(plane.e1), b = length(plane.e2),
+                 area = length(cross(plane.e1, plane.e2));
+    const double tolerance = float_offset(plane.largest), slack = tolerance / std::min(a, b);
+    if (!(area > 0)) return {Vec3<double>(infinity), Vec3<double>(-infinity)};  // nothing does
+    // Of u and v: the thinner the triangle, the more digits are lost.
+    const double rounding = 1e-14 * std::max(a, b) * std::max(a, b) / area;
+    if (!(rounding < 0.1)) return {Vec3<double>(-infinity), Vec3<double>(infinity)};
+    const double reach = 2 * tolerance + 2 * (slack + 4 * rounding * (1 + slack)) * (a + b);
+    PlaneBox box{plane.corner, plane.corner};
+    const auto add = [&](const Vec3<double>& p) {
+        box.low = glm::min(box.low, p), box.high = glm::max(box.high, p);
+    };
+    add(plane.corner + plane.e1), add(plane.corner + plane.e2);
+    if (!is_triangle) add(plane.corner + plane.e1 + plane.e2);
+    return {box.low - reach, box.high + reach};
+}
+
+/// The largest offset among the surfaces that each of some points lies on, in parts of the scene.
+class OffsetSearch {
+public:
+    OffsetSearch(const Scene& scene, std::span<const Vec3<double>> points,
+                 const Vec3<double>& frame_origin, std::span<const double> least)
+        : scene_(scene), points_(points), frame_origin_(frame_origin), offsets_(least),
+          tree_(points)
+    {
+        for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+            const auto* mesh = std::get_if<Mesh>(&scene.surfaces[s].shape);
+            const std::size_t count = mesh != nullptr ? mesh->triangles.size() : 1;
+            for (std::size_t first = 0; first < count; first += part_size)
+                parts_.push_back({s, first, std::min(first + part_size, count)});
+        }
+    }
+
+    std::size_t parts() const { return parts_.size(); }
+
+    /// A point, and the offset that a surface of a part asks for, which is larger than the least.
+    using Found = std::vector<std::pair<std::uint32_t, double>>;
+    Found in_part(std::size_t number) const
+    {
+        Found found;
+        const auto [s, first, end] = parts_[number];
+        const Surface& surface = scene_.surfaces[s];
+        if (const auto* quad = std::get_if<Quad>(&surface.shape))
+            consider(plane_of(*quad, frame_origin_), false, found);
+        if (const auto* mesh = std::get_if<Mesh>(&surface.shape))
+            for (std::size_t t = first; t < end; ++t)
+                consider(plane_of(corners(*mesh, static_cast<std::uint32_t>(t)), frame_origin_),
+                         true, found);
+        return found;
+    }
+
+private:
+    static constexpr std::size_t part_size = 1 << 14;
+    struct Part {
+        std::size_t surface, first, end;  ///< of its triangles
+    };
+
+    void consider(const Plane& plane, bool is_triangle, Found& found) const
+    {
+        const PlaneBox box = box_of(plane, is_triangle);
+        const double own = float_offset(plane.largest);
+        tree_.for_each_near(box.low, box.high, [&](std::uint32_t i) {
+            if (own > offsets_[i] && lies_on(points_[i], plane, is_triangle))
+                found.emplace_back(i, own);
+        });
+    }
+
+    const Scene& scene_;
+    std::span<const Vec3<double>> points_;
+    Vec3<double> frame_origin_;
+    std::span<const double> offsets_;
+    PointTree tree_;
+    std::vector<Part> parts_;
+};
 
 }  // namespace
 
@@ -107,6 +197,21 @@ double offset_of_point(const Scene& scene, const Vec3<double>& x, const Vec3<dou
                 consider(plane_of(corners(*mesh, t), frame_origin), true);
     }
     return offset;
+}
+
+void offsets_of_points(const Scene& scene, std::span<const Vec3<double>> points,
+                       const Vec3<double>& frame_origin, const ForEach& for_each,
+                       std::span<double> offsets)
+{
+    std::vector<double> least;
+    for (const Vec3<double>& x : points)
+        least.push_back(float_offset(largest_coordinate(x - frame_origin)));
+    const OffsetSearch search(scene, points, frame_origin, least);
+    std::vector<OffsetSearch::Found> found(search.parts());
+    for_each(found.size(), [&](std::size_t part) { found[part] = search.in_part(part); });
+    std::copy(least.begin(), least.end(), offsets.begin());
+    for (const OffsetSearch::Found& part : found)
+        for (const auto& [i, own] : part) offsets[i] = std::max(offsets[i], own);
 }
 
 Vec3<double> frame_origin_of(const Scene& scene)

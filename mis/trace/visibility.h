@@ -4,6 +4,7 @@
 #include "mis/scene/light.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -20,12 +21,19 @@ struct ShadowRay {
 struct SurfaceHit {
     Vec3<double> x;          ///< on the surface, in double
     Vec3<double> geometric;  ///< unit normal of the surface, towards the ray's origin
-    Vec3<double> n;          ///< unit shading normal, on the same side
+    Vec3<double> n;          ///< unit shading normal, towards the ray's origin, too
     double distance;         ///< along the ray
     double offset;  ///< how far a ray that starts at x must be moved off this surface to miss it;
                     ///< scene units
     int material;   ///< index into Scene::materials
+
+    /// Does n lean to the side of the surface that is not seen? On a coarse mesh with smooth
+    /// normals it does along the outline: turned to the viewer, it is turned off the surface.
+    bool is_n_behind() const { return dot(n, geometric) < 0; }
 };
+
+/// Runs body(0) … body(n − 1), each once, on any thread and in any order: AnyExecutor::for_each.
+using ForEach = std::function<void(std::size_t n, const std::function<void(std::size_t)>& body)>;
 
 /// What surfaces do to rays; an embedder may bring his own. Lights are no surfaces: trace/lights.h.
 class SurfaceTracer {
@@ -46,6 +54,13 @@ public:
 
     /// SurfaceHit::offset for a point that no ray found: of the surface it lies on, if on any.
     virtual double offset_at(const Vec3<double>& x) const = 0;
+
+    /// The same of many points: offsets[i] of points[i].
+    virtual void offsets_at(std::span<const Vec3<double>> points, std::span<double> offsets,
+                            const ForEach& for_each) const
+    {
+        for_each(points.size(), [&](std::size_t i) { offsets[i] = offset_at(points[i]); });
+    }
 };
 
 }  // namespace mis

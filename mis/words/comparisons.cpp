@@ -19,7 +19,7 @@ void say_exact(Sentences& sentences, const SceneView& view)
         if (view.of(i).exact && view.of(i).status == Status::ranked) names.push_back(view.name(i));
     if (!names.empty())
         sentences.say(listed(names) + (names.size() == 1 ? " is" : " are") +
-                      " exact here: every sample gives the result");
+                      " exact here, without variance: every sample is the answer to rounding");
 }
 
 bool are_tied(const SceneView& view, int i, int j)

@@ -128,8 +128,8 @@ void add_sequences(std::vector<std::string>& sentences, const CostSceneReport& s
         if (falls_faster(curve, scene.is_sobol)) faster.push_back(name_of(curve));
     if (!faster.empty())
         sentences.push_back(
-            "Faster than by the root of its samples, as that of scrambled sequences "
-            "may, falls the error of " +
+            "Faster than by the root of its samples, as that of scrambled sequences may, falls the "
+            "error of " +
             listed(faster) + ".");
     if (scene.is_sobol)
         sentences.push_back(
@@ -199,8 +199,7 @@ std::vector<std::string> sentences_of(const CostSceneReport& scene)
             if (!is_none(curve.reason)) add_doubts(sentences, curve, scene.is_sobol);
         sentences.emplace_back(
             "No sample met any light: as far as it was seen the scene is black, and there is "
-            "nothing "
-            "to tell strategies apart by.");
+            "nothing to tell strategies apart by.");
         return sentences;
     }
     add_first(sentences, scene);

@@ -1,5 +1,6 @@
 #include "mis/words/numbers.h"
 
+#include "mis/report/run_head.h"
 #include "mis/strategy/names.h"
 
 #include <algorithm>
@@ -89,7 +90,7 @@ std::string listed(std::span<const std::string> names)
     return text;
 }
 
-const char* sampler_name(bool is_sobol) { return is_sobol ? "sobol" : "independent"; }
+const char* sampler_name(bool is_sobol) { return sampler_names[is_sobol]; }
 
 std::string replay_words(const std::string& file, const Strategy& strategy,
                          const SampleName& sample)

@@ -32,6 +32,16 @@ std::string words_of(const reason::PastBudget& why)
            " of the time given";
 }
 
+std::string words_of(const reason::NotReady&)
+{
+    return "past the budget: its tables and its first samples were not ready in the time given";
+}
+
+std::string words_of(const reason::LateSetUp&)
+{
+    return "past the budget: the set-up, the audit included, left too little of the time given";
+}
+
 std::string words_of(const reason::AuditFails& why)
 {
     return std::string("the other strategies' samples find a ") + variance_words(why.relative) +
@@ -51,6 +61,16 @@ std::string words_of(const reason::FewReplicates&)
 }
 
 std::string words_of(const reason::NotFinite&) { return "its variance is not a finite number"; }
+
+std::string words_of(const reason::RoundingAlone& why)
+{
+    const std::string found = "its samples differ by the rounding of floats alone, ";
+    if (why.zero_points > 0)
+        return found + "but at " + count(static_cast<double>(why.zero_points)) +
+               (why.zero_points == 1 ? " point" : " points") +
+               " all of them are 0, which proves nothing: rare samples may not have been drawn yet";
+    return found + "which shows no variance and does not prove that there is none";
+}
 
 std::string words_of(const reason::CarriedByFew& why)
 {
@@ -94,6 +114,11 @@ std::string words_of(const reason::DoublingsTooDear& why)
 {
     return "past the budget: about " + duration(why.seconds) +
            " of CPU time for the first three doublings";
+}
+
+std::string words_of(const reason::NoFirstLook&)
+{
+    return "past the budget: there was no time for a first sample";
 }
 
 std::string words_of(const reason::SampleTooDear& why)

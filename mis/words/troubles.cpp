@@ -23,10 +23,11 @@ void say_troubles_of(Sentences& sentences, const SceneView& view, int i)
                                                : ""));
     if (s.invalid_samples > 0)
         sentences.say(view.name(i) + " gave " + std::to_string(s.invalid_samples) +
-                      " samples that are no numbers and were left out: do not trust its figures; "
-                      "'" +
-                      replay_words(view.scene().file, s.strategy, s.first_invalid) +
-                      "' with this run's --seed and --resolution shows the first");
+                      " samples that are no numbers and were left out: do not trust its figures" +
+                      (s.first_invalid
+                           ? "; '" + replay_words(view.scene().file, s.strategy, *s.first_invalid) +
+                                 "' with this run's --seed and --resolution shows the first"
+                           : ""));
 }
 
 bool has_intervals(const SceneReport& scene)

@@ -131,10 +131,24 @@ const tests = {
   async "marks stand out from both grounds by 3 to 1"() {
     const least = await page.value(`(() => {
       const light = (c) => { const k = d3.rgb(c), of = (v) => v / 255 <= .04045 ? v / 255 / 12.92 : ((v / 255 + .055) / 1.055) ** 2.4; return .2126 * of(k.r) + .7152 * of(k.g) + .0722 * of(k.b) + .05; };
-      const colours = [...Object.values(policy_colours), ...more_colours, no_policy_colour, ...stage_groups.map((g) => g.colour)];
-      return Math.min(...colours.flatMap((c) => ["#ffffff", "#14171a"].map((ground) => Math.max(light(c), light(ground)) / Math.min(light(c), light(ground)))));
+      const all = [...Object.values(policy_colours), ...colours(30), no_policy_colour, ...stage_groups.map((g) => g.colour)];
+      return Math.min(...all.flatMap((c) => ["#ffffff", "#14171a"].map((ground) => Math.max(light(c), light(ground)) / Math.min(light(c), light(ground)))));
     })()`);
     assert.ok(least >= 3, `${least} to 1`);
+  },
+
+  async "a policy or heuristic that the page has never heard of has a colour or mark of its own"() {
+    // Today's look is by today's registry.
+    assert.deepEqual(await page.value("Object.entries(policy_colours)"), [["uniform", "#C27E00"], ["power", "#2E93CC"], ["solid-angle", "#009E73"], ["radiant-solid-angle", "#D55E00"], ["all", "#CC79A7"], ["irradiance", "#0072B2"], ["product", "#7466B4"], ["tree", "#B04A6A"]]);
+    assert.deepEqual(await page.value("Object.entries(heuristic_marks).map(([name, m]) => [name, m.word, m.dash, m.lighter])"), [["light", "circle", "1 4", 1], ["balance", "square", "7 3", 0], ["power", "triangle", null, -1], ["cutoff", "diamond", "7 3 1 3", 1.8], ["maximum", "star", "2 2", -1.8]]);
+    const known = await page.value("colours(8)"), many = await page.value("colours(24)"), none = await page.value("no_policy_colour");
+    assert.deepEqual(many.slice(0, known.length), known, "more policies change no colour of those before them");
+    const least = await page.value(`(() => { const all = [...colours(24), no_policy_colour]; return Math.min(...all.flatMap((a, i) => all.slice(0, i).map((b) => difference(a, b)))); })()`);
+    assert.ok(least >= 10, `colours differ by ${least} at least`);
+    assert.ok(!many.includes(none));
+    const marks = await page.value(`Array.from({ length: 12 }, (_, i) => mark_at(i)).map((m) => [m.word, m.dash, d3.symbol().type(m.symbol).size(70)()])`);
+    for (const of of [0, 1, 2]) assert.equal(new Set(marks.map((m) => m[of])).size, marks.length, "shape, dash and word");
+    assert.ok(marks.every((m) => !/NaN/.test(m[2])));
   },
 
   async "the curves cross 1 % at the report's time"(report) {
@@ -358,6 +372,30 @@ async function effects_by_tile() {
   console.log("ok: what an effect saves is told wherever it was measured");
 }
 
+/// The registry gains six policies and four heuristics: a report of theirs is made from that of others.
+async function names_that_no_page_knows() {
+  const report = compare("new", join(scenes, "single.json"), "--resolution", "24x16", "--spp", "32", "--policy", "uniform,power", "--heuristic", "light,balance,power,cutoff,maximum,brdf");
+  const policies = Array.from({ length: 6 }, (_, i) => `new-policy-${i}`), heuristics = Array.from({ length: 4 }, (_, i) => `new-heuristic-${i}`);
+  const file = join(folder, "new", "report.html"), html = readFileSync(file, "utf8");
+  const block = (id) => html.match(new RegExp(`<script type="application/json" id="${id}">(.*?)</script>`, "s"))[1];
+  const glossary = JSON.parse(block("glossary")), figures = JSON.parse(block("report"));
+  for (const name of policies) glossary.policy[name] = "in some new way";
+  for (const name of heuristics) glossary.heuristic[name] = "in some new way";
+  const names = figures.scenes[0].strategies.map((s) => s.name);
+  figures.scenes[0].strategies.forEach((s, i) => { if (s.policy !== null) Object.assign(s, { policy: policies[i % 6], heuristic: heuristics[i % 4] }); });
+  writeFileSync(file, html.replace(block("report"), () => JSON.stringify(figures)).replace(block("glossary"), () => JSON.stringify(glossary)));
+  await open(report);
+  await page.until('document.querySelectorAll("#legend button path").length > 0');
+  const marks = await page.value(`[...document.querySelectorAll("#legend button")].map((b) => { const p = b.querySelector("path"); return [b.dataset.strategy, p.getAttribute("stroke").toLowerCase(), p.getAttribute("d")]; })`);
+  assert.deepEqual(marks.map((m) => m[0]), names);
+  assert.equal(new Set(marks.map((m) => m[1])).size, 6 + 1, "a colour for each new policy, and brdf's");
+  assert.equal(new Set(marks.map((m) => m[2])).size, 4 + 1, "a mark for each new heuristic, and brdf's");
+  const key = await text("#mark-key");
+  for (const name of heuristics) assert.ok(key.includes(name), `the key names ${name}`);
+  nothing_went_wrong(report);
+  console.log("ok: names that no page knows have colours and marks of their own");
+}
+
 async function probes_alone() {
   const scene = scene_of("single.json");
   const file = join(folder, "probes.json");
@@ -415,7 +453,7 @@ async function stopped_early() {
 
 try {
   page = await Page.open(chromium);
-  for (const test of [one_scene, several_scenes, effects_by_tile, probes_alone, pixels_that_are_no_numbers, stopped_early]) await test();
+  for (const test of [one_scene, several_scenes, effects_by_tile, names_that_no_page_knows, probes_alone, pixels_that_are_no_numbers, stopped_early]) await test();
 } catch (error) {
   console.error(error);
   process.exitCode = 1;

@@ -20,16 +20,6 @@ namespace {
 constexpr double false_alarm = 1e-6;
 constexpr std::uint64_t seed = 20;
 
-/// What rounding may make of one sample. Numbers are floats or doubles, but in both a direction of
-/// the shading point is a float, which is off by ε = 2⁻²⁴. A lobe of width w makes ε/w of that, and
-/// several operations add up (docs/theory-predict.md §2, the same bound).
-double rounding_of(const Scene& scene)
-{
-    const Material& m = scene.materials[static_cast<std::size_t>(scene.probes[0].material)];
-    const double width = m.type == "ggx" ? m.alpha : 1 / std::sqrt(1 + m.exponent);
-    return 4 * 0x1p-24 * (20 + (m.type == "lambert" ? 0 : 1 / width));
-}
-
 /// The policies of a library change with time, so the number of tests is counted.
 double false_alarm_of_one()
 {

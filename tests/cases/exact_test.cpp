@@ -97,6 +97,83 @@ TEST(Exact, IsProvedOfManyLightsByTheirLists)
     EXPECT_FALSE(Planned(probe_under(lights, grey_floor())).has_form());
 }
 
+/// Variance over the squared mean, of double samples at the probe.
+double relative_variance(const Planned& planned, const Strategy& strategy)
+{
+    const Moments found =
+        run_probe<double>(planned.test, strategy, kernels<double>(), scaled(2000)).result.luminance;
+    return found.variance() / (found.mean * found.mean);
+}
+
+/// Strategies of which a theorem says that every sample is the closed form are those that have no
+/// variance, and no others; but for `tree`, which is `product` where there are few lights, and for
+/// heuristics that drop the BSDF's draw where it is less dense throughout.
+void expect_exact_strategies_are_those_without_variance(const Scene& scene)
+{
+    const Planned planned(scene);
+    ASSERT_TRUE(planned.has_form());
+    const AnyExecutor serial = any_executor(SerialExecutor{});
+    EXPECT_TRUE(has_closed_form(planned.test.lit, planned.test.probes, 1, serial));
+    for (const Strategy& strategy : every_strategy()) {
+        if (strategy.policy == "tree" || strategy.heuristic == "cutoff" ||
+            strategy.heuristic == "maximum")
+            continue;
+        const double variance = relative_variance(planned, strategy);
+        if (gives_closed_form(scene, strategy)) {
+            EXPECT_LE(variance, 1e-11) << name_of(strategy);  // areas are known to 3e-6
+        } else {
+            EXPECT_GT(variance, 1e-10) << name_of(strategy);
+        }
+    }
+}
+
+TEST(Exact, StrategiesAreThoseWithoutVarianceUnderLightsOfOneColour)
+{
+    Uniforms uniforms(93);
+    Scene scene = side_by_side(uniforms);
+    for (Light& light : scene.lights)
+        light = make_light(light.center, light.radius, Vec3<double>{1, 0.5, 2} * (1 + uniforms()));
+    scene.materials[0].diffuse = {0.9, 0.2, 0.1};
+    EXPECT_TRUE(gives_closed_form(scene, parse_strategy("product/light/projected@3+0")));
+    expect_exact_strategies_are_those_without_variance(scene);
+}
+
+TEST(Exact, StrategiesAreThoseWithoutVarianceUnderLightsOfManyColours)
+{
+    Uniforms uniforms(94);
+    Scene scene = side_by_side(uniforms);
+    EXPECT_TRUE(gives_closed_form(scene, parse_strategy("irradiance/light/projected")));
+    expect_exact_strategies_are_those_without_variance(scene);  // on a grey floor
+    scene.materials[0].diffuse = {0.9, 0.2, 0.1};
+    EXPECT_FALSE(gives_closed_form(scene, parse_strategy("irradiance/light/projected")));
+    expect_exact_strategies_are_those_without_variance(scene);
+}
+
+TEST(Exact, StrategiesAreThoseWithoutVarianceUnderOneLight)
+{
+    const Scene scene =
+        probe_under({make_light({0.5, 0.1, 2}, 0.7, Vec3<double>{1, 2, 3})}, grey_floor());
+    EXPECT_TRUE(gives_closed_form(scene, parse_strategy("uniform/light/projected")));
+    expect_exact_strategies_are_those_without_variance(scene);
+}
+
+/// Where few samples are to come, a tile's plan leaves out proofs that do not pay; whether a
+/// strategy is exact is asked all the same.
+TEST(Exact, IsProvedHoweverFewSamplesAreToCome)
+{
+    Uniforms uniforms(95);
+    Scene scene = side_by_side(uniforms);
+    for (int k = 0; k < 40; ++k)
+        scene.surfaces.push_back({SphereSurface{{0.5 * k - 10, -3, 0}, 0.1}, 0});
+    const EmbreeTracer tracer(scene);
+    TestScene test(scene, &tracer);
+    test.lit.expect_samples(4);
+    const AnyExecutor serial = any_executor(SerialExecutor{});
+    test.lit.plan(test.probes, serial);
+    EXPECT_FALSE(has_closed_form(test.lit, test.probes.tiles.at(0)));
+    EXPECT_TRUE(has_closed_form(test.lit, test.probes, 1, serial));
+}
+
 TEST(Exact, CountsDarkPointsAsExact)
 {
     const Planned planned(probe_under({make_light({0, 2, 0}, 0.5, Vec3<double>(1))}, grey_floor()));

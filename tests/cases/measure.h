@@ -4,6 +4,7 @@
 
 #include "tests/engine/bench.h"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -42,6 +43,16 @@ Outcome run_case(const ReadyCase& ready_case, const Strategy& strategy, const Ke
         workspace.run(ready.job(tile, ready_case.test.probes.points), pipeline,
                       {.chunk = samples, .chunks = 1}, std::span(&outcome.result, 1), {}, {});
     return outcome;
+}
+
+/// What rounding may make of one sample. Numbers are floats or doubles, but in both a direction of
+/// the shading point is a float, which is off by ε = 2⁻²⁴. A lobe of width w makes ε/w of that, and
+/// several operations add up (docs/theory-predict.md §2, the same bound).
+inline double rounding_of(const Scene& scene)
+{
+    const Material& m = scene.materials[static_cast<std::size_t>(scene.probes[0].material)];
+    const double width = m.type == "ggx" ? m.alpha : 1 / std::sqrt(1 + m.exponent);
+    return 4 * 0x1p-24 * (20 + (m.type == "lambert" ? 0 : 1 / width));
 }
 
 }  // namespace mis

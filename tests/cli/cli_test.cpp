@@ -80,6 +80,20 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare VEACH --resolution 0x4", "--resolution: found \"0x4\""},
         BadLine{"compare VEACH --resolution 99999x4", "--resolution: found"},
         BadLine{"compare VEACH --effects some", "--effects: found \"some\""},
+        BadLine{"compare VEACH --effects al", "Did you mean \"all\""},
+        BadLine{"compare VEACH --effects shadow=off", "Did you mean \"shadows=off\""},
+        BadLine{"compare VEACH --effects horizon", "Did you mean \"horizon=off\""},
+        BadLine{"explain VEACH --effects atuo", "Did you mean \"auto\""},
+        BadLine{"render VEACH --sampler sobel --out x.exr", "Did you mean \"sobol\""},
+        BadLine{"compare VEACH --model multy", "Did you mean \"multi\""},
+        BadLine{"cost VEACH --precision flaot", "Did you mean \"float\""},
+        BadLine{"predict VEACH --technique projekted", "Did you mean \"projected\""},
+        BadLine{"compare VEACH --polcy power", "Did you mean \"--policy\""},
+        BadLine{"render VEACH --sp 4 --out x.exr", "Did you mean \"--spp\""},
+        BadLine{"integrate --pdv=cosine", "Did you mean \"--pdf\""},
+        BadLine{"explian VEACH", "Did you mean \"explain\""},
+        BadLine{"explain VEACH --csv -", "explain: found option \"--csv\"; known are"},
+        BadLine{"explain VEACH --sampler sobol", "explain: found option \"--sampler\"; known are"},
         BadLine{"compare VEACH --effects lobes=off", "--effects: found \"lobes=off\""},
         BadLine{"compare VEACH --effects shadows=off", "% of the tiles"},
         BadLine{"render VEACH --effects light_occlusion=off --out x.exr", "before one another"},
@@ -117,6 +131,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"cost VEACH VEACH", "not expected"},
         BadLine{"cost VEACH --json - --csv -", "standard output takes one"},
         BadLine{"integrate --pdf cosin", "Did you mean \"cosine\""},
+        BadLine{"integrate --pdf hemi", "Did you mean \"hemisphere\""},
         BadLine{"integrate -n 0", "found"},
     };
     for (const BadLine& line : lines) {
@@ -188,7 +203,13 @@ TEST(CommandLine, AnswersWhatIsWrongWithReportsWithOneMessageAndExitCode2)
                              folder.write("torn.json", text_of(report).substr(0, 2000)).string() +
                              "' ",
                       veach = "'" + scene("veach") + "' ";
-    const std::array<std::pair<std::string, std::string>, 8> lines{{
+    std::string wide = "\xFF\xFE";
+    for (const char c : text_of(report)) wide += c, wide += '\0';
+    const std::string utf16 = "'" + folder.write("utf16.json", wide).string() + "' ";
+    const std::array<std::pair<std::string, std::string>, 11> lines{{
+        {one + utf16, "utf16.json: found UTF-16 text (little-endian)"},
+        {utf16 + utf16, "utf16.json: found UTF-16 text (little-endian)"},
+        {one + "no-such.json", "no-such.json: found no such file"},
         {one, "found one report"},
         {one + one + one, "found 3 reports"},
         {one + veach, "a report among scenes"},
@@ -318,6 +339,11 @@ TEST(CommandLine, RendersAPictureOrNothing)
             .exit,
         0);
     EXPECT_TRUE(std::filesystem::exists(file));
+    const std::string bytes = text_of(file);
+    for (const char* name : {"mis:command", "mis:seed", "mis:strategy", "mis:sampler",
+                             "mis:samples_per_point", "mis:partial", "Software"})
+        EXPECT_NE(bytes.find(name), bytes.npos) << name;
+    EXPECT_EQ(bytes.find("mis/seed"), bytes.npos);
     std::size_t files = 0;
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / ""))
         ++files;
@@ -398,6 +424,30 @@ TEST(CommandLine, GoesOnWhereStandardErrorCannotBeWritten)
         EXPECT_EQ(exit_of(render + error), 0) << error;
         EXPECT_TRUE(std::filesystem::remove(file)) << error;
     }
+}
+
+/// The scene comes through a pipe that is not closed: the program has read from it, as more was
+/// written than a pipe holds, and waits for more when the signal comes.
+TEST(CommandLine, EndsOnASignalWhileItReads)
+{
+    for (const char* signal : {"INT", "TERM"})
+        for (const char* words :
+             {"compare pipe", "render pipe --strategy brdf --out o.exr", "cost pipe",
+              "explain pipe", "predict pipe", "replay pipe --strategy brdf --point 0 --sample 0"}) {
+            const TemporaryFolder folder;
+            const std::string script =
+                "cd '" + (folder / ".").string() + "'; mkfifo pipe; exec 3<>pipe; '" +
+                program_file().string() + "' " + words +
+                " >out 2>error 3>&- & p=$!; printf '%300000s' '' >&3; kill -" + signal +
+                " $p; exec 3>&-; wait $p";
+            const int status = std::system(script.c_str());
+            EXPECT_EQ(WEXITSTATUS(status), 130) << words;
+            EXPECT_EQ(text_of((folder / "out").string()), "") << words;
+            EXPECT_NE(text_of((folder / "error").string())
+                          .find("interrupted before there was a result; nothing was written"),
+                      std::string::npos)
+                << words;
+        }
 }
 
 TEST(CommandLine, ReplaysASampleStageByStage)
@@ -492,6 +542,28 @@ TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
     EXPECT_LT(shown.find("[.."), wiped);  // the bar
     EXPECT_EQ(shown.find("[..", wiped), std::string::npos);
     EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
+}
+
+TEST(Compare, RanksTheClassicsWhereNothingIsNamed)
+{
+    std::vector<std::string> expected;
+    for (const char* policy : {"uniform", "power", "solid-angle", "radiant-solid-angle", "all"})
+        for (const char* heuristic : {"light", "balance", "power"})
+            expected.push_back(std::string(policy) + "/" + heuristic);
+    expected.emplace_back("brdf");
+    const Outcome run = mis_with("compare '" + scene("veach") + "' '" + scene("single") +
+                                 "' --resolution 8x6 --spp 4 --json -");
+    ASSERT_EQ(run.exit, 0) << run.error;
+    const auto json = nlohmann::json::parse(run.out);
+    ASSERT_EQ(json.at("scenes").size(), 2U);
+    for (const auto& scene : json.at("scenes")) {
+        std::vector<std::string> names;
+        for (const auto& strategy : scene.at("strategies")) names.push_back(strategy.at("name"));
+        EXPECT_EQ(names, expected);
+    }
+    const std::size_t told = run.error.find("left out:");
+    ASSERT_NE(told, run.error.npos);
+    EXPECT_EQ(run.error.find("left out:", told + 1), run.error.npos) << "once a run";
 }
 
 /// Mean and variance of every strategy of a report, to the last digit that is written.

@@ -45,7 +45,7 @@ struct TestScene {
     }
     TestScene(const Scene& s, const SurfaceTracer* surfaces, const Effects& effects)
         : scene(s), lit(scene, surfaces, effects),
-          probes(probe_points(scene, lit.lights(), surfaces))
+          probes(probe_points(scene, lit.lights(), surfaces, any_executor(SerialExecutor{})))
     {
     }
     /// The only probe as a point to be sampled all the same, where no light can reach it.

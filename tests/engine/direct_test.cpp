@@ -11,6 +11,7 @@
 #include "mis/trace/analytic.h"
 
 #include "tests/engine/bench.h"
+#include "tests/support/ends.h"
 
 #include <gtest/gtest.h>
 
@@ -151,6 +152,46 @@ template <class B> void expect_the_pipelines_samples_of(const Material& material
         expect_the_pipelines_samples<BalanceHeuristic, UnionTechnique>(point, Policy::name, bsdf,
                                                                        host);
     });
+}
+
+/// A host's draw towards a lamp half in the floor, at the ends of its numbers.
+template <class Heuristic, class T>
+void expect_no_draw_lost(const Vec3<double>& up, const DirectCounts<T>& counts, bool is_constant)
+{
+    const Frame<double> around = frame_around(up);
+    const Vec3<double> center = around.x * 2.0 + up * 0.2;
+    const DirectLights<PowerPolicy, T> lights({make_light(center, 0.5, Vec3<double>(7))});
+    DirectPoint<PowerPolicy, T> point(lights);
+    const auto n = vec_cast<T>(up);
+    point.move_to(Vec3<double>(0), n);
+    const Lambert white(grey_floor());
+    const FramedBsdf<Lambert, T> bsdf(white, n, n);
+    const auto nothing = [](const Vec3<T>&, T) { return false; };
+    const Cap<T> cap = point.cap(0);
+    const double answer = 0.5 / pi<double> * 7 * 0.5 / static_cast<double>(cap.distance) *
+                          static_cast<double>(cap.sin_max) *
+                          static_cast<double>(irradiance_over_sin2(tilted(cap, n)));
+    for (const Vec2<T>& u : ends_of_square<T>(32, 2)) {
+        const DirectDraw<T> draw = draw_towards<Heuristic, ProjectedTechnique>(
+            point, bsdf, nothing, Choice{0, 1}, u, counts);
+        const auto found = static_cast<double>(draw.radiance.x) / answer;
+        ASSERT_GT(dot(n, draw.wi), 0) << u.x << ", " << u.y;
+        ASSERT_TRUE(found > 0 && found < 1.001) << u.x << ", " << u.y << ": " << found;
+        if (!is_constant) continue;
+        ASSERT_NEAR(found, 1, 16 * static_cast<double>(std::numeric_limits<T>::epsilon()))
+            << u.x << ", " << u.y;
+    }
+}
+
+TEST(Direct, LosesNoProjectedDrawAtTheHorizon)
+{
+    const Vec3<double> tilt = normalized(Vec3<double>{0.3, -0.5, 0.8});
+    for (const Vec3<double>& up : {Vec3<double>{0, 0, 1}, tilt}) {
+        expect_no_draw_lost<SingleHeuristic, float>(up, {1, 0}, true);
+        expect_no_draw_lost<SingleHeuristic, double>(up, {1, 0}, true);
+        expect_no_draw_lost<BalanceHeuristic, float>(up, {1, 1}, false);
+        expect_no_draw_lost<PowerHeuristic, double>(up, {1, 1}, false);
+    }
 }
 
 TEST(Direct, GivesThePipelinesSamplesOnLambert)

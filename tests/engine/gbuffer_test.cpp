@@ -1,5 +1,6 @@
 #include "mis/engine/gbuffer.h"
 
+#include "mis/engine/exact.h"
 #include "mis/trace/analytic.h"
 
 #include "tests/engine/bench.h"
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <numbers>
 #include <set>
 
 namespace mis {
@@ -44,7 +46,8 @@ TEST(GBuffer, AProbeThatFacesNoLightIsDark)
         light.center.y = height * light.radius;
         const Scene scene = probe_under({light}, grey_floor());
         const LitScene lit(scene, nullptr, called_for(scene));
-        const GBuffer probes = probe_points(scene, lit.lights(), nullptr);
+        const GBuffer probes =
+            probe_points(scene, lit.lights(), nullptr, any_executor(SerialExecutor{}));
         EXPECT_EQ(probes.dark.size(), height < -1.00005 ? 1U : 0U) << height;
     }
 }
@@ -125,6 +128,69 @@ TEST(GBuffer, ABandHoldsTheSamePointsAsTheWholePicture)
     for (const ShadingPoint& p : band.points) EXPECT_EQ(places.at(p.id), p.x);
 }
 
+/// A floor z = 0 whose smooth normals lie nearly flat, seen at a slant from where they lean away
+/// from, under one light.
+struct LeaningNormals {
+    explicit LeaningNormals(const Vec3<double>& lamp)
+    {
+        Mesh mesh;
+        mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+        mesh.normals.assign(4, vec_cast<float>(n));
+        mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+        scene.camera = Camera{.position = {-4, 0, 1},
+                              .target = {0, 0, 0},
+                              .up = {0, 0, 1},
+                              .vertical_fov_degrees = 20,
+                              .resolution = {32, 32}};
+        scene.materials = {grey_floor()};
+        scene.surfaces = {{mesh, 0}};
+        scene.lights = {make_light(lamp, 0.5, Vec3<double>(40))};
+        const LitScene lit(scene, nullptr, called_for(scene));
+        const AnalyticTracer tracer(scene);
+        found = find_shading_points(scene, lit.lights(), &tracer, 0, 32,
+                                    any_executor(SerialExecutor{}));
+    }
+    Vec3<double> n = normalized(Vec3<double>{1, 0, 0.1});
+    Scene scene;
+    GBuffer found;
+};
+
+TEST(GBuffer, ANormalThatLeansAwayIsTurnedToTheViewerAndCounted)
+{
+    const LeaningNormals lit({-3, 0, 3});  // n leans away from it; the turned one faces it
+    EXPECT_EQ(lit.found.points.size(), 352U);
+    EXPECT_EQ(lit.found.counts.turned_normals, 352U);
+    EXPECT_EQ(lit.found.counts.turned_and_dark, 0U);
+    EXPECT_TRUE(lit.found.dark.empty());
+    for (const ShadingPoint& p : lit.found.points) {
+        EXPECT_GT(dot(p.n, p.wo), 0);
+        EXPECT_NEAR(length(vec_cast<double>(p.n) + lit.n), 0, 1e-6);
+        EXPECT_GT(p.ray_origin.z, 0);  // on the side that is seen
+    }
+    const LeaningNormals dark({3, 0, 3});  // above the floor, and behind the turned normal
+    EXPECT_EQ(dark.found.counts.turned_normals, 352U);
+    EXPECT_EQ(dark.found.counts.facing_no_light, 352U);
+    EXPECT_EQ(dark.found.counts.seen_from_below, 0U);
+    EXPECT_EQ(dark.found.counts.turned_and_dark, 352U);
+    EXPECT_EQ(dark.found.dark.size(), 352U);
+}
+
+/// What a turned normal faces is lit by the closed form with that normal, as far as the light
+/// stands before the surface.
+TEST(GBuffer, ATurnedNormalIsLitByWhatItFaces)
+{
+    const LeaningNormals at({-3, 0, 3});
+    const LitScene lit(at.scene, nullptr, called_for(at.scene));
+    ASSERT_FALSE(at.found.points.empty());
+    for (const ShadingPoint& p : at.found.points) {
+        const Vec3<double> expected =
+            irradiance(at.scene.lights[0], p.x, -at.n) * (0.5 / std::numbers::pi);
+        const Vec3<double> got = exact_radiance(lit, at.found.tiles.front(), p);
+        EXPECT_GT(expected.x, 0);
+        EXPECT_NEAR(got.x, expected.x, 1e-5 * expected.x);
+    }
+}
+
 Scene three_probes()
 {
     Scene scene = probe_under({make_light({0, 2, 0}, 0.5, Vec3<double>(1))}, grey_floor());
@@ -141,6 +207,9 @@ TEST(Probes, InsideALightOrOnItOrSeenFromBelowAreDark)
 {
     const TestScene test(three_probes());
     EXPECT_EQ(test.probes.dark, (std::vector<std::uint32_t>{0, 1, 2}));
+    EXPECT_EQ(test.probes.counts.seen_from_below, 1U);
+    EXPECT_EQ(test.probes.counts.inside_light, 2U);
+    EXPECT_EQ(test.probes.counts.turned_normals, 0U);
     ASSERT_EQ(test.probes.points.size(), 1U);
     EXPECT_EQ(test.probes.points[0].id, 3U);
     EXPECT_EQ(test.probes.points[0].n, (Vec3<float>{0, 1, 0}));

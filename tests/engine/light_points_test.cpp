@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -100,6 +101,24 @@ std::vector<Vec3<double>> rendered(const Hosted& host, const ReadyStrategy<float
     for (std::size_t p = 0; p < band.results.size(); ++p)
         by_id[band.shading.points[p].id] = band.results[p].mean();
     return by_id;
+}
+
+/// A picture that was stopped says how many samples each of its points has, at least.
+TEST(LightBand, StoppedLeavesPointsWithFewerSamplesWhichAreCounted)
+{
+    const Hosted host;
+    const ReadyStrategy<float> strategy(host.lit, parse_strategy("power/power"), kernels<float>(),
+                                        1);
+    const AnyExecutor serial = any_executor(SerialExecutor{});
+    WorkspacePool<float> workspaces;
+    Band band{host.buffer, std::vector<PointResult>(host.buffer.points.size())};
+    ASSERT_GT(band.shading.tiles.size(), 3U);
+    int asks = 0;
+    const std::function<bool()> asked = [&] { return ++asks > 2; };  // of more tiles
+    light_band(strategy, band, 0, 8, workspaces, serial, StopToken(&asked));
+    EXPECT_EQ(least_samples(band), 0U);
+    light_band(strategy, band, 8, 8, workspaces, serial);
+    EXPECT_EQ(least_samples(band), 8U);
 }
 
 TEST(LightPoints, GivesWhatMisRenders)

@@ -23,7 +23,8 @@ Pipeline<float> composed(const char* name, const Effects& effects)
 }
 
 constexpr Effects everything{.lights = 5},
-    nothing{.lights = 1, .shadows = false, .light_occlusion = false};
+    nothing{.lights = 1,
+            .on = EffectSet::all() - EffectSet{Effect::shadows, Effect::light_occlusion}};
 
 TEST(Pipeline, HoldsNoStageThatTheSceneDoesNotCallFor)
 {

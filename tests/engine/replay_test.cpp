@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 
 namespace mis {
@@ -30,6 +31,17 @@ TEST(Replay, GivesTheSampleThatTheRunHad)
         EXPECT_EQ(sum, run.result.radiance_sum) << name;
         EXPECT_GT(sum.y, 0) << name;
     }
+}
+
+TEST(Replay, EndsOnceItIsToldTo)
+{
+    const TestScene test(probe_under(three_lights_apart(), grey_floor()));
+    const ReadyStrategy<float> ready(test.lit, parse_strategy("all/light"), kernels<float>(), 1);
+    int asks = 0;
+    const std::function<bool()> asked = [&] { return ++asks > 2; };  // of three draws
+    EXPECT_THROW(replay(test.lit, ready, test.probes.tiles.at(0), test.probes.points[0], 7,
+                        StopToken(&asked)),
+                 Stopped);
 }
 
 TEST(Replay, StepsSayWhatEachStageDid)

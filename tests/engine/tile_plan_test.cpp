@@ -165,7 +165,9 @@ template <class Plan> Tally compare_plans(int scenes, int most, const Plan& plan
             const auto found = results_of(planned, shading, tile, strategy, 64);
             ++tally.tiles;
             tally.differ += same_bits(expected, found) ? 0 : 1;
-            tally.leaner += tile.plan.shadows && tile.plan.light_occlusion ? 0 : 1;
+            const EffectSet simulated = tile.plan.effects;
+            tally.leaner +=
+                simulated.has(Effect::shadows) && simulated.has(Effect::light_occlusion) ? 0 : 1;
             for (const std::uint8_t proofs : tile.plan.lights) {
                 tally.below_all += (proofs & below) != 0 ? 1 : 0;
                 if ((proofs & below) != 0) continue;
@@ -190,11 +192,10 @@ TEST(TilePlans, ChangeNoBitOnRandomScenes)
     EXPECT_GT(tally.proved_shadows, scaled(500));
     EXPECT_GT(tally.proved_lights, scaled(500));
     EXPECT_GT(tally.below_all, scaled(50));
-    for (const double share :
-         {tally.called_for.shadows, tally.called_for.light_occlusion, tally.called_for.horizon,
-          tally.called_for.specular, tally.called_for.choice, tally.called_for.colour}) {
-        EXPECT_GT(share, scaled(100));  // each is left out of many, and not of many
-        EXPECT_LT(share, scaled(950));
+    for (const Effect effect : EffectSet::all()) {
+        const double share = tally.called_for[effect];
+        EXPECT_GT(share, scaled(100)) << name_of(effect);  // left out of many, and not of many
+        EXPECT_LT(share, scaled(950)) << name_of(effect);
     }
 }
 
@@ -207,9 +208,9 @@ TEST(EffectShares, OfAllTilesAreExactly1)
 {
     for (std::size_t tiles = 1; tiles < 300; ++tiles) {
         EffectShares counts;
-        for (std::size_t t = 0; t < tiles; ++t) counts.add({1, 1, 1, 1, 1, 1});
-        for (const auto share : EffectShares::each())
-            EXPECT_EQ(counts.of(tiles).*share, 1) << tiles;
+        for (std::size_t t = 0; t < tiles; ++t) counts.add(EffectSet::all());
+        for (const Effect effect : EffectSet::all())
+            EXPECT_EQ(counts.of(tiles)[effect], 1) << tiles;
     }
 }
 
@@ -218,7 +219,7 @@ TEST(TilePlans, ThatLeaveOutAHorizonInTheWayAreFoundOut)
     const auto without_horizon = [](const LitScene& lit, const auto& frame,
                                     std::span<const ShadingPoint> points) {
         TilePlan plan = TilePlanner(lit.scene(), lit.lights(), lit.effects(), frame).plan(points);
-        plan.horizon = false;
+        plan.effects.set(Effect::horizon, false);
         return plan;
     };
     EXPECT_GT(compare_plans(300, 1, without_horizon).differ, 0);
@@ -232,8 +233,8 @@ TEST(TilePlans, OfFloorUnderLightsTraceNothing)
     const TestScene test(scene, &tracer);
     GBuffer probes = test.probes;
     test.lit.plan(probes, any_executor(SerialExecutor{}));
-    EXPECT_FALSE(probes.tiles.at(0).plan.shadows);
-    EXPECT_FALSE(probes.tiles.at(0).plan.light_occlusion);
+    EXPECT_FALSE(probes.tiles.at(0).plan.effects.has(Effect::shadows));
+    EXPECT_FALSE(probes.tiles.at(0).plan.effects.has(Effect::light_occlusion));
     const ReadyStrategy<float> ready(test.lit, parse_strategy("uniform/power"), kernels<float>(),
                                      1);
     for (const NamedStage<float>& stage : ready.pipeline(probes.tiles[0]).light)
@@ -254,7 +255,7 @@ TEST(TilePlans, OfAFloorThatCutsALightTraceNothingUnlessThePointIsTilted)
         const TestScene test(scene, &tracer);
         GBuffer probes = test.probes;
         test.lit.plan(probes, any_executor(SerialExecutor{}));
-        EXPECT_EQ(probes.tiles.at(0).plan.shadows, tilt > 0) << tilt;
+        EXPECT_EQ(probes.tiles.at(0).plan.effects.has(Effect::shadows), tilt > 0) << tilt;
     }
 }
 

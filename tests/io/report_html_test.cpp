@@ -4,6 +4,7 @@
 #include "mis/io/maps_exr.h"
 #include "mis/io/page_assets.h"
 #include "mis/io/report_json.h"
+#include "mis/strategy/names.h"
 #include "tests/io/sample_report.h"
 #include "tests/io/temporary_folder.h"
 
@@ -78,6 +79,22 @@ TEST(ReportHtml, AsksForNothingOutsideItself)
             in_d3 += count(std::string(page_asset("error_time.js")), "url(#");
         EXPECT_EQ(count(page, way_out), in_d3) << way_out;
     }
+}
+
+/// A new policy or heuristic is one file and one registry line: the page's sources name none.
+TEST(ReportHtml, KnowsNoPolicyAndNoHeuristicByName)
+{
+    const std::string page =
+        report_html(sample_report(), std::vector<std::optional<PagePictures>>(2));
+    const std::size_t begin = page.find(page_asset("base.js"));
+    const std::string script = page.substr(begin, page.find("</script>", begin) - begin);
+    for (const auto& list : {policy_names(), heuristic_names()})
+        for (const Choosable& c : list)
+            for (const std::string& use :
+                 {"{ " + c.name + ":", ", " + c.name + ":",
+                  "{ \"" + c.name + "\":", ", \"" + c.name + "\":", "policy === \"" + c.name,
+                  "heuristic === \"" + c.name, "heuristic." + c.name, "policy." + c.name})
+                EXPECT_EQ(count(script, use), 0U) << use;
 }
 
 TEST(Base64, IsThatOfTheRfc)

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <set>
 
 namespace mis {
 namespace {
@@ -105,23 +104,6 @@ TEST(ReportJson, SurvivesNamesThatAreNotUtf8)
     Report report = sample_report();
     report.scenes[0].file = "caf\xe9.json";
     EXPECT_TRUE(Json::accept(report_json(report)));
-}
-
-TEST(ReportJson, IsExplainedKeyByKey)
-{
-    std::ifstream file(source_dir() / "docs/report-format.md");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    ASSERT_FALSE(text.empty());
-    const Json schema = described_report();
-    std::set<std::string> keys;
-    const auto add = [&](const Json& object) {
-        const Json properties = object.value("properties", Json::object());
-        for (const auto& [key, rule] : properties.items()) keys.insert(key);
-    };
-    add(schema);
-    for (const auto& [name, definition] : schema["$defs"].items()) add(definition);
-    for (const std::string& key : keys)
-        EXPECT_NE(text.find("`" + key + "`"), std::string::npos) << key;
 }
 
 }  // namespace

@@ -1,30 +1,31 @@
 #include "mis/io/report_read.h"
 
+#include "mis/io/report_csv.h"
 #include "mis/io/report_json.h"
 #include "mis/io/report_peek.h"
+#include "mis/io/report_text.h"
 #include "mis/io/scene_error.h"
+#include "mis/run/serial.h"
+#include "mis/study/study.h"
+#include "mis/trace/analytic.h"
+#include "mis/words/verdict.h"
 #include "tests/io/sample_report.h"
 #include "tests/io/temporary_folder.h"
+#include "tests/support/places.h"
+#include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace mis {
 namespace {
 
 using Json = nlohmann::json;
-
-/// A report's JSON as data, without its sentences: these are made anew from the figures.
-Json figures_of(const Report& report)
-{
-    Json json = Json::parse(report_json(report));
-    json.erase("sentences");
-    for (Json& scene : json["scenes"]) scene.erase("sentences");
-    return json;
-}
 
 Json sample() { return Json::parse(report_json(sample_report())); }
 
@@ -41,13 +42,153 @@ std::string message_about(const char* pointer, const Json& value)
     return "";
 }
 
-TEST(ReportRead, IsWhatWasWritten)
+/// A report in which no field is as it is by default.
+Report full_report()
 {
-    const Report report = sample_report();
-    EXPECT_EQ(figures_of(parse_report(report_json(report), "x")), figures_of(report));
-    const Report empty = parse_report(report_json({}), "x");
-    EXPECT_EQ(figures_of(empty), figures_of({}));
-    EXPECT_EQ(report.scenes[0].strategies[0].timed_rounds, 16);
+    Report report = sample_report();
+    report.is_sobol = report.partial = true;
+    report.seed = std::numeric_limits<std::uint64_t>::max();
+    report.margin = 0.1, report.at = 64;
+    SceneReport& scene = report.scenes[0];
+    scene.file = "été's.json";
+    scene.lacks_audit = scene.partial = true;
+    scene.triangles = 12, scene.background_pixels = 3;
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    scene.effects.clear();
+    for (const char* name : effect_names)
+        scene.effects.push_back({name, name[0] != 'c', 0.25, "because", unknown, -1e-9});
+    scene.strategies[0].invalid_samples = 3;
+    scene.strategies[0].first_invalid = SampleName{7, 12345678901};
+    scene.strategies[4].resolving_factor = 12.5;
+    scene.strategies[4].least_growth = {1e30, 1e29};  // that it seems to lead means nothing
+    scene.strategies[4].variance = scene.strategies[4].seconds_to_1_percent = {1e-9, 1e-9, 1e-9};
+    scene.strategies[3].resolving_factor = std::numeric_limits<double>::infinity();
+    return report;
+}
+
+/// Strategies in many states, of a scene with a blocker, three lights and perhaps samples that are
+/// no numbers.
+Report studied_report(const StudyOptions& options, bool has_bad_samples = false)
+{
+    Scene scene = probe_under(three_lights_apart(), grey_floor());
+    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {20, 12}};
+    scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
+    scene.surfaces.push_back({SphereSurface{{0.5, 0.6, 0.5}, 0.3}, 0});
+    if (has_bad_samples)
+        scene.lights.front().radiance_radius = Vec3<float>(std::numeric_limits<float>::quiet_NaN());
+    std::vector<Strategy> strategies;
+    for (const char* name : {"uniform/power", "solid-angle/balance@2+1", "all/light", "brdf",
+                             "power/light/union", "power/power/one-sample"})
+        strategies.push_back(parse_strategy(name));
+    const AnalyticTracer tracer(scene);
+    const LitScene lit(scene, &tracer, called_for(scene));
+    Study study = run_study(lit, strategies, options, any_executor(SerialExecutor{}));
+    study.report.file = "a.json";
+    study.report.effects = explained(scene, all_effects(scene), {});
+    Report report;
+    report.is_sobol = options.samples_per_scrambling > 0;
+    report.scenes = {study.report, study.report};
+    report.overall = rank_overall(report.scenes);
+    return report;
+}
+
+const std::vector<Report>& many_reports()
+{
+    static const std::vector<Report> reports = [] {
+        Report bare, nothing_ranked = sample_report(), not_utf8 = full_report();
+        not_utf8.scenes[0].file = "caf\xe9's.json";
+        bare.scenes.resize(2);
+        for (SceneReport& scene : nothing_ranked.scenes) {
+            scene.pairs.clear();
+            std::erase_if(scene.strategies,
+                          [](const StrategyReport& s) { return s.status == Status::ranked; });
+            scene.strategies[0].resolving_factor = 3;
+        }
+        return std::vector<Report>{{},
+                                   bare,
+                                   sample_report(),
+                                   full_report(),
+                                   not_utf8,
+                                   nothing_ranked,
+                                   studied_report({.spp = 32}),
+                                   studied_report({.samples_per_scrambling = 8, .spp = 64}),
+                                   studied_report({.spp = 8}, true)};
+    }();
+    return reports;
+}
+
+TEST(ReportRead, IsTheSameFileOnceItIsWrittenAgain)
+{
+    for (const Report& report : many_reports()) {
+        const std::string text = report_json(report);
+        EXPECT_EQ(report_json(parse_report(text, "x")), text);
+    }
+}
+
+/// A file's name that is not UTF-8 stands in JSON with replacement characters.
+bool is_utf8(const Report& report)
+{
+    return report.scenes.empty() || !report.scenes[0].file.starts_with("caf");
+}
+
+TEST(ReportRead, SaysTheSame)
+{
+    for (const Report& report : many_reports()) {
+        if (!is_utf8(report)) continue;
+        const Report again = parse_report(report_json(report), "x");
+        ASSERT_EQ(again.scenes.size(), report.scenes.size());
+        for (std::size_t i = 0; i < report.scenes.size(); ++i)
+            EXPECT_EQ(sentences_of(again.scenes[i], again.threads, again.margin),
+                      sentences_of(report.scenes[i], report.threads, report.margin));
+        EXPECT_EQ(overall_sentences_of(again), overall_sentences_of(report));
+        EXPECT_EQ(report_text(again), report_text(report));
+        EXPECT_EQ(report_csv(again), report_csv(report));
+    }
+}
+
+TEST(ReportRead, HoldsWhatSentencesAloneSay)
+{
+    const Report report = parse_report(report_json(full_report()), "x");
+    const SceneReport& scene = report.scenes[0];
+    EXPECT_TRUE(scene.lacks_audit);
+    EXPECT_FALSE(report.scenes[1].lacks_audit);
+    ASSERT_TRUE(scene.strategies[0].first_invalid);
+    EXPECT_EQ(scene.strategies[0].first_invalid->point, 7u);
+    EXPECT_EQ(scene.strategies[0].first_invalid->sample, 12345678901u);
+    EXPECT_FALSE(scene.strategies[1].first_invalid);
+    EXPECT_EQ(scene.strategies[4].resolving_factor, 12.5);
+    EXPECT_EQ(scene.strategies[4].least_growth.variance, 1e30);
+    EXPECT_EQ(scene.strategies[4].least_growth.relative_variance, 1e29);
+    EXPECT_EQ(scene.strategies[0].timed_rounds, 16);
+    for (std::size_t i = 0; i < effect_names.size(); ++i)
+        EXPECT_EQ(scene.effects.at(i).name, effect_names[i]);
+}
+
+/// One that this program wrote before reports said all that sentences need.
+TEST(ReportRead, TakesOlderReportsAndClaimsNothingForThem)
+{
+    const Report old = read_report(source_dir() / "tests/fuzz/report.json");
+    EXPECT_TRUE(std::isnan(old.scenes[0].strategies[0].resolving_factor));
+    EXPECT_FALSE(old.scenes[0].lacks_audit);
+    const std::string text = report_json(old);
+    EXPECT_EQ(report_json(parse_report(text, "x")), text);
+
+    Json json = Json::parse(report_json(full_report()));
+    for (Json& scene : json["scenes"]) {
+        scene.erase("lacks_audit");
+        for (Json& s : scene["strategies"])
+            for (const char* key :
+                 {"resolving_factor", "least_growth", "first_invalid", "timed_rounds"})
+                s.erase(key);
+    }
+    const Report read = parse_report(json.dump(), "x");
+    EXPECT_TRUE(read.scenes[1].lacks_audit);  // sequences are not audited
+    EXPECT_FALSE(read.scenes[0].strategies[0].first_invalid);
+    EXPECT_EQ(read.scenes[0].strategies[4].least_growth.variance, 1);
+    EXPECT_EQ(read.scenes[0].strategies[1].timed_rounds, 0);
+    const std::string said = report_text(read);
+    EXPECT_NE(said.find("gave 3 samples that are no numbers"), said.npos);
+    EXPECT_EQ(said.find("mis replay"), said.npos);
 }
 
 TEST(ReportRead, TakesNullForNotKnown)
@@ -107,6 +248,17 @@ TEST(ReportRead, SaysWhereWhatIsWrong)
              {"/scenes/0/strategies/0/rank", 0, "a whole number between 1"},
              {"/scenes/0/pairs/0/a", "brdf/x", "the name of a strategy of this scene"},
              {"/scenes/0/effects/shadows/on", "yes", "/scenes/0/effects/shadows/on: found"},
+             {"/scenes/0/strategies/0/seconds_to_1_percent", 1,
+              "it is the value of \"seconds_to_1_percent_interval\""},
+             {"/scenes/0/strategies/0/seconds_to_1_percent", nullptr, "it is the value of"},
+             {"/scenes/0/strategies/0/first_invalid",
+              {{"point", -1}, {"sample", 0}},
+              "first_invalid/point: found -1; a whole number"},
+             {"/scenes/0/strategies/0/least_growth", 2, "an object"},
+             {"/scenes/0/strategies/0/resolving_factor", -2, "at least 0"},
+             {"/scenes/0/lacks_audit", 0, "true or false"},
+             {"/sampler", "halton", "known are independent, sobol"},
+             {"/margin", nullptr, "found null; a number that is at least 0 belongs here"},
              {"/overall/0/beaten_by_exact", 1e18, "a whole number"},
          }) {
         const std::string message = message_about(wrong.pointer, wrong.value);

@@ -282,7 +282,7 @@ TEST_P(EveryBadScene, GivesOneMessageWithItsPlace)
 }
 
 const std::string random_start = R"({"type":"random","count":2,"seed":1,"box":[[0,3,0],[1,4,1]],)";
-const std::string lambert = R"("materials":{"floor":{"type":"lambert","albedo":0.5}})";
+const std::string grey_lambert = R"("materials":{"floor":{"type":"lambert","albedo":0.5}})";
 const std::string known_materials = "; the scene's materials are floor";
 const std::string range_allowed = "; two numbers, [low, high], 0 < low <= high, belong here";
 
@@ -298,8 +298,98 @@ const BadScene bad_scenes[] = {
      "plates.json: line 2, column 4: found \"\\\"b\\\"\"; this is not JSON ("},
     {"NoWord", R"({"a": truw})",
      "plates.json: line 1, column 10: found \"truw\"; this is not JSON ("},
-    {"Nan", with_light(R"({"center":[0,nan,0],"radius":1,"radiance":1})"),
-     "plates.json: line 1, column "},
+    {"Nan", R"({"a": NaN})",
+     "plates.json: line 1, column 7: found \"NaN\"; NaN is no JSON number\n    Write a finite "
+     "number, or leave the key out."},
+    {"SmallNan", R"({"a": nan})",
+     "plates.json: line 1, column 7: found \"nan\"; nan is no JSON number"},
+    {"Infinity", R"({"a": Infinity})",
+     "plates.json: line 1, column 7: found \"Infinity\"; Infinity is no JSON number"},
+    {"MinusInfinity", R"({"a": [1, -Infinity]})",
+     "plates.json: line 1, column 11: found \"-Infinity\"; -Infinity is no JSON number"},
+    {"Inf", R"({"a": inf})", "plates.json: line 1, column 7: found \"inf\"; inf is no JSON number"},
+    {"WordOfPython", R"({"a": True})",
+     "plates.json: line 1, column 7: found \"True\"; JSON writes true, false and null, in small "
+     "letters\n    Write true."},
+    {"NoneOfPython", R"({"a": None})",
+     "plates.json: line 1, column 7: found \"None\"; JSON writes true, false and null, in small "
+     "letters\n    Write null."},
+    {"SingleQuotes", R"({'a': 1})",
+     "plates.json: line 1, column 2: found a single quote, '; strings and keys stand in double "
+     "quotes"},
+    {"KeyWithoutQuotes", R"({radius : 1})",
+     "plates.json: line 1, column 2: found \"radius\"; a key stands in double quotes\n    Write "
+     "\"radius\"."},
+    {"TypographicQuotes", "{\"a\": \u201Cb\u201D}",
+     "plates.json: line 1, column 7: found the character U+201C, a typographic quote; between its "
+     "strings JSON has plain ASCII characters alone\n    Write \" in its place."},
+    {"NoBreakSpace", "{\"a\":\u00A01}",
+     "plates.json: line 1, column 6: found the character U+00A0, a no-break space; between its "
+     "strings JSON has plain ASCII characters alone\n    Remove it, or type it again."},
+    {"ZeroWidthSpace", "{\"a\": 1\u200B}",
+     "plates.json: line 1, column 8: found the character U+200B, a zero-width space; "},
+    {"MarkWithin", "{\"a\": 1,\n\uFEFF\"b\": 1}",
+     "plates.json: line 2, column 1: found the character U+FEFF, a byte order mark; "},
+    {"TypographicMinus", "{\"a\": \u22121}",
+     "plates.json: line 1, column 7: found the character U+2212, a minus sign that is no hyphen; "},
+    {"CommentOfPython", "{ # lamps\n}",
+     "plates.json: line 1, column 3: found \"#\"; a comment begins with // or /*"},
+    {"LeadingZero", R"({"a": 01})",
+     "plates.json: line 1, column 7: found \"01\"; a JSON number has no zero before its first "
+     "digit"},
+    {"Plus", R"({"a": +1})",
+     "plates.json: line 1, column 7: found \"+1\"; a JSON number has no + before it"},
+    {"PointFirst", R"({"a": .5})",
+     "plates.json: line 1, column 7: found \".5\"; a JSON number has digits on both sides of its "
+     "point"},
+    {"PointLast", R"({"a": 5.})",
+     "plates.json: line 1, column 7: found \"5.\"; a JSON number has digits on both sides"},
+    {"Hexadecimal", R"({"a": 0x10})",
+     "plates.json: line 1, column 7: found \"0x10\"; JSON has no hexadecimal numbers"},
+    {"NumberOfC", R"({"a": 1.0f})",
+     "plates.json: line 1, column 7: found \"1.0f\"; a JSON number has digits, a point and an "
+     "exponent alone"},
+    {"NumberWithUnderscore", R"({"a": 1_000})",
+     "plates.json: line 1, column 7: found \"1_000\"; a JSON number has digits, a point"},
+    {"NumberOfFortran", R"({"a": 1d3})",
+     "plates.json: line 1, column 7: found \"1d3\"; a JSON number has digits, a point"},
+    {"ExponentWithoutDigits", R"({"a": 1e})",
+     "plates.json: line 1, column 7: found \"1e\"; a JSON number has digits, a point"},
+    {"NanOfOldLibraries", R"({"a": -1.#IND00})",
+     "plates.json: line 1, column 7: found \"-1.#IND00\"; -1.#IND00 is no JSON number"},
+    {"DecimalComma", R"({"a": 0,5})",
+     "plates.json: line 1, column 9: found \"5\"; a key, in double quotes, belongs here\n    Write "
+     "0.5, not 0,5"},
+    {"StringCutOff", R"({"a": "bc)",
+     "plates.json: line 1, column 10: found the end of the text within a string; a string ends "
+     "with \" on the line on which it begins"},
+    {"PathWithBackslash", R"({"file": "C:\lamps.csv"})",
+     R"(plates.json: line 1, column 13: found "\\l"; in a string a backslash is written \\; it begins )"},
+    {"PathOfAUser", R"({"file": "C:\users\x.csv"})",
+     R"(plates.json: line 1, column 13: found "\\us"; in a string a backslash is written \\; )"},
+    {"PathEndsInBackslash", "{\"file\": \"C:\\\",\n\"a\": 1}",
+     "plates.json: line 1, column 16: found the end of the line within a string; a string ends "
+     "with "
+     "\" on the line on which it begins\n    In \\\" the quote is part of the text."},
+    {"PathEndsInBackslashOnOneLine", R"({"file": "C:\", "a": 1})",
+     R"(plates.json: line 1, column 18: found "a"; )"},
+    {"PathWithATab", with_light(R"({"type":"table","file":"C:\table.csv"})"),
+     R"(plates.json: /lights/0/file: found "C:\table.csv", which has a control character in it; )"},
+    {"StringWithoutEnd", "{\"a\": \"b\n}",
+     "plates.json: line 1, column 9: found the end of the line within a string; a string ends with "
+     "\" on the line on which it begins\n    Close it with \"."},
+    {"HalfACharacter", R"({"a": "\uD83D!"})",
+     R"(plates.json: line 1, column 8: found "\\uD83D!"; \uD800 to \uDFFF are halves of one )"},
+    {"Utf16", std::string("\xFF\xFE{\0}\0", 6),
+     "plates.json: found UTF-16 text (little-endian); the text is UTF-8, without zero bytes\n    "
+     "Save it as UTF-8."},
+    {"Utf16WithoutAMark", std::string("\0{\0}", 4),
+     "plates.json: found UTF-16 text (big-endian); "},
+    {"Utf32", std::string("\0\0\xFE\xFF\0\0\0{", 8),
+     "plates.json: found UTF-32 text (big-endian); "},
+    {"Packed", "\x1F\x8B\x08", "plates.json: found a gzip file; "},
+    {"LinesOfOldMacs", "{\r\"a\": 1,\r\"b\": x}",
+     "plates.json: line 3, column 6: found \"x\"; this is not JSON ("},
     {"NotUtf8", "{\n\"a\": \"\xFF\"}",
      "plates.json: line 2, column 7: found byte 0xFF; the text is UTF-8"},
     {"OverlongUtf8", "{\"a\": \"\xC0\xAF\"}",
@@ -379,10 +469,10 @@ const BadScene bad_scenes[] = {
      "plates.json: /camera/position: found [0, 1, 5], inside light 0 (counted from 0; center [0, "
      "1, 5], radius 1); a camera stands outside all lights"},
     {"ProbeWithoutOutgoing",
-     lit(lambert + R"(,"probes":[{"position":[0,0,0],"normal":[0,1,0],"material":"floor"}])"),
+     lit(grey_lambert + R"(,"probes":[{"position":[0,0,0],"normal":[0,1,0],"material":"floor"}])"),
      "plates.json: /probes/0/outgoing: found nothing; \"outgoing\" is required here"},
     {"ProbeNormalZero",
-     lit(lambert +
+     lit(grey_lambert +
          R"(,"probes":[{"position":[0,0,0],"normal":[0,0,0],"outgoing":[0,1,0],"material":"floor"}])"),
      "plates.json: /probes/0/normal: found [0, 0, 0]; a direction is not the zero vector"},
     {"ProbesNoArray", lit(R"("probes":{})"),
@@ -417,7 +507,7 @@ const BadScene bad_scenes[] = {
      "plates.json: /materials: found []; an object, { ... }, belongs here"},
     // surfaces
     {"MaterialUnknown",
-     lit(lambert +
+     lit(grey_lambert +
          R"(,"surfaces":[{"type":"sphere","center":[0,0,0],"radius":1,"material":"flor"}])"),
      "plates.json: /surfaces/0/material: found \"flor\"" + known_materials +
          "\n    Did you mean \"floor\"?"},
@@ -429,37 +519,37 @@ const BadScene bad_scenes[] = {
      "plates.json: /surfaces/0/type: found \"squad\"; known types are mesh, sphere, quad\n    Did "
      "you mean \"quad\"?"},
     {"SurfaceRadiusNegative",
-     lit(lambert +
+     lit(grey_lambert +
          R"(,"surfaces":[{"type":"sphere","center":[0,0,0],"radius":-0.5,"material":"floor"}])"),
      "plates.json: /surfaces/0/radius: found -0.5; a radius is greater than 0"},
     {"QuadOfOneEdge",
-     lit(lambert +
+     lit(grey_lambert +
          R"(,"surfaces":[{"type":"quad","corner":[0,0,0],"edges":[[0,0,1]],"material":"floor"}])"),
      "plates.json: /surfaces/0/edges: found an array of 1; two edges, "},
     {"QuadDegenerate",
-     lit(lambert +
+     lit(grey_lambert +
          R"(,"surfaces":[{"type":"quad","corner":[0,0,0],"edges":[[0,0,1],[0,0,2]],"material":"floor"}])"),
      "plates.json: /surfaces/0/edges: found [[0, 0, 1], [0, 0, 2]]; a quad's two edges have a "
      "length and are not parallel"},
     {"MeshMissing",
-     lit(lambert + R"(,"surfaces":[{"type":"mesh","file":"nothing.obj","material":"floor"}])"),
+     lit(grey_lambert + R"(,"surfaces":[{"type":"mesh","file":"nothing.obj","material":"floor"}])"),
      "plates.json: /surfaces/0/file: found \"nothing.obj\", which does not exist; a path is "
      "relative to the scene file's folder"},
     {"MeshIsAFolder",
-     lit(lambert + R"(,"surfaces":[{"type":"mesh","file":".","material":"floor"}])"),
+     lit(grey_lambert + R"(,"surfaces":[{"type":"mesh","file":".","material":"floor"}])"),
      "plates.json: /surfaces/0/file: found \".\", which is a directory or a device; "},
     {"MeshNameEmpty",
-     lit(lambert + R"(,"surfaces":[{"type":"mesh","file":"","material":"floor"}])"),
+     lit(grey_lambert + R"(,"surfaces":[{"type":"mesh","file":"","material":"floor"}])"),
      "plates.json: /surfaces/0/file: found \"\"; a path is relative"},
     {"MeshNameWithZero",
-     lit(lambert + R"(,"surfaces":[{"type":"mesh","file":"a\u0000b","material":"floor"}])"),
+     lit(grey_lambert + R"(,"surfaces":[{"type":"mesh","file":"a\u0000b","material":"floor"}])"),
      "plates.json: /surfaces/0/file: found \"a\\u0000b\"; a path is relative"},
     {"ScaleZero",
-     lit(lambert +
+     lit(grey_lambert +
          R"(,"surfaces":[{"type":"mesh","file":"a.obj","material":"floor","transform":{"scale":[1,0,1]}}])"),
      "plates.json: /surfaces/0/transform/scale: found [1,0,1]; a scale is not 0"},
     {"TransformKeyUnknown",
-     lit(lambert +
+     lit(grey_lambert +
          R"(,"surfaces":[{"type":"mesh","file":"a.obj","material":"floor","transform":{"rotation":[1,0,1]}}])"),
      "plates.json: /surfaces/0/transform/rotation: found the unknown key \"rotation\"; known keys "
      "are translate, rotate, scale\n    Did you mean \"rotate\"?"},
@@ -537,8 +627,8 @@ TEST(SceneJson, NamesTheMeshAndTheReasonAtItsPlaceInTheScene)
     folder.write("flat.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
     folder.write("box.fbx", "x");
     const auto mesh = [&](const std::string& file) {
-        return message_about_scene(lit(lambert + R"(,"surfaces":[{"type":"mesh","file":")" + file +
-                                       R"(","material":"floor"}])"),
+        return message_about_scene(lit(grey_lambert + R"(,"surfaces":[{"type":"mesh","file":")" +
+                                       file + R"(","material":"floor"}])"),
                                    folder / "s.json");
     };
     const std::string place = (folder / "s.json").string() + ": /surfaces/0/file: found ";
@@ -685,7 +775,7 @@ TEST(SceneFormatPage, NamesEveryKeyAndEveryLimit)
     for (const MaterialType& type : material_types)
         expect_named(scene_keys::material(type)), expect_named(std::array{type.name});
     for (const char* limit : {"10 000 000", "50 000 000", "16384", "1 GiB", "64 levels", "1e15",
-                              "1e-30", "1e37", "1e-37", "1e9", "1e-9"})
+                              "1e-30", "1e37", "1e-37", "1e9", "1e-9", "1e-18", "1e-15", "1e-36"})
         EXPECT_NE(page.find(limit), page.npos) << limit;
 }
 

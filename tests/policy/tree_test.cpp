@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <cmath>
 #include <map>
 
@@ -358,6 +360,33 @@ TEST(TreePolicy, ASunAmidLampsIsDrawnAboutAsProductDrawsIt)
     };
     check(0.0);
     check(TestLanes<float>(0.F));
+}
+
+/// It asks whether it is to stop at each split and each part.
+TEST(LightTree, TakesStepsInProportionToItsLightsWhereTheyStandOneBehindTheOther)
+{
+    const auto steps_for = [](int count) {
+        Lights lights;
+        for (int k = 1; k <= count; ++k)
+            lights.push_back(make_light({0, 0, 2.0 * k}, k, Vec3<double>(k == 1 ? 1.0 : 1000.0)));
+        int asks = 0;
+        const std::function<bool()> asked = [&] { return ++asks < 0; };
+        const LightTree tree(lights, StopToken(&asked));
+        return asks;
+    };
+    EXPECT_GT(steps_for(1000), 50);
+    EXPECT_LT(steps_for(16000), 17 * steps_for(1000));
+}
+
+TEST(LightTree, EndsItsBuildingOnceItIsToldTo)
+{
+    Lights lights;
+    for (int k = 1; k <= 1000; ++k)
+        lights.push_back(make_light({0, 0, 2.0 * k}, k, Vec3<double>(1)));
+    int asks = 0;
+    const std::function<bool()> soon = [&] { return ++asks > 20; };
+    EXPECT_THROW(LightTree(lights, StopToken(&soon)), Stopped);
+    EXPECT_EQ(asks, 21);
 }
 
 }  // namespace

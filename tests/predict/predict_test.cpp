@@ -145,11 +145,11 @@ TEST(Predict, EndsOnceItIsToldTo)
     std::atomic<bool> stop = false;
     const Strategy strategy = parse_strategy("all/light");
     const auto ask = [&] {
-        return predict(scene, scene.probes[0], {&strategy, 1}, {}, {.stop = &stop});
+        return predict(scene, scene.probes[0], {&strategy, 1}, {}, {.stop = StopToken(&stop)});
     };
     EXPECT_GT(ask()[0].mean, 0);
     stop = true;
-    EXPECT_THROW(ask(), PredictError);
+    EXPECT_THROW(ask(), Stopped);
 }
 
 TEST(Predict, TheHorizonCutsLights)

@@ -205,10 +205,16 @@ class Memory(unittest.TestCase):
 
     def test_ctrl_c_ends_a_run(self):
         scene = mis.Scene(LECTURE, resolution=(64, 48))
+        many = [{"center": [0.01 * k, 2 + 0.02 * k, 0.1 * math.sin(k)], "radius": 1, "radiance": 1 + k} for k in range(60)]
+        overlapping = mis.Scene({**ONE_LIGHT, "lights": many})
+        lights = {"count": 10_000_000, "seed": 1, "box": [[0, 1, 0], [9, 9, 9]], "radius": [0.001, 0.01], "power": [1, 2]}
+        ten_million = {**ONE_LIGHT, "lights": [{"type": "random", **lights}]}
         works = [
             lambda: mis.render(scene, "power/balance", 10_000_000),
             lambda: mis.samples(scene, "power/balance", 200_000_000),
             lambda: mis.compare(scene, ["power/light", "brdf"], seconds=1000),
+            lambda: mis.predict(overlapping, mis_strategies()),
+            lambda: mis.Scene(ten_million),
         ]
         for work in works:
             timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))

@@ -2,6 +2,7 @@
 
 #include "mis/math/sphere.h"
 
+#include "tests/support/ends.h"
 #include "tests/support/lanes.h"
 #include "tests/support/quadrature.h"
 #include "tests/support/statistics.h"
@@ -152,6 +153,44 @@ TYPED_TEST(ConeOf, NodesInPlaceOfRandomNumbersGiveTheClosedFormIrradiance)
         EXPECT_NEAR(sum / (std::numbers::pi * dot(axis, n)), 1, sizeof(T) == 4 ? 1e-6 : 1e-12)
             << theta;
     }
+}
+
+/// Of a cap that is all above the horizon no draw is worth 0; of one that is cut, those are that
+/// the horizon cuts off.
+TYPED_TEST(ConeOf, DrawsKnowOnWhichSideOfTheHorizonTheyAre)
+{
+    using T = TypeParam;
+    const std::vector<Vec2<T>> ends = ends_of_square<T>(scaled(16), 2);
+    const Vec3<double> tilt = normalized(Vec3<double>{0.3, -0.5, 0.8});
+    for (const Vec3<double>& up : {Vec3<double>{0, 0, 1}, tilt})
+        for (const double sine : {1e-8, 1e-4, 0.1, 0.5, 0.9, 0.999, 1 - 5e-9})
+            for (const double height : {3.0, 1 + 1e-6, 1.0, 0.5, 0.0, -0.5, -1 + 1e-6, -1.5}) {
+                const double c = height * sine;
+                if (std::abs(c) > 1) continue;
+                const Vec3<double> towards =
+                    frame_around(up).to_world({std::sqrt((1 - c) * (1 + c)), 0, c});
+                const Cap<T> cap = cap_towards(vec_cast<T>(towards * 4.0), static_cast<T>(4 * sine),
+                                               static_cast<T>(16 * (1 - sine) * (1 + sine)));
+                const auto n = vec_cast<T>(up);
+                const bool is_above = dot(n, cap.axis) >= cap.sin_max;
+                for (const Vec2<T>& u : ends) {
+                    const CapDraw<T> draw = sample_cone_over(cap, n, u);
+                    const double exact = dot(vec_cast<double>(n), vec_cast<double>(cap.axis)) +
+                                         dot(vec_cast<double>(n), vec_cast<double>(draw.offset));
+                    const double sum = up.x == 0 ? std::abs(c) + sine : 1;  // of what is added
+                    const double near = 4 * ulp_of<T> * sum;
+                    ASSERT_NEAR(static_cast<double>(draw.cos_theta), exact, near)
+                        << sine << ", " << height << ": " << u.x << ", " << u.y;
+                    if (is_above) {
+                        ASSERT_GT(draw.cos_theta, 0);
+                    }
+                    if (draw.cos_theta > 0) {
+                        ASSERT_GT(frame_around(n).to_local(draw.wi).z, 0);
+                    }
+                    ASSERT_TRUE(std::isfinite(draw.distance) && draw.distance > 0);
+                    ASSERT_NEAR(static_cast<double>(length(draw.wi)), 1, 10 * ulp_of<T>);
+                }
+            }
 }
 
 template <class V> void expect_lanes_agree()

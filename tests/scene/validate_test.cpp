@@ -214,6 +214,23 @@ const BrokenRule rules[] = {
      "/lights/1/radiance", "nan", "finite"},
     {"LightRadianceHuge", [](Scene& s) { s.lights[1].radiance_radius = Vec3<float>(2e37f); },
      "/lights/1/radiance", "e+37, for a radius of 0.5", "and 1e+37"},
+    {"ProbeNearATinyLight",
+     [](Scene& s) {
+         s.probes[0].position = {0, 0, 0};
+         s.lights[1] = make_light({0, 2e-20, 0}, 1e-20, Vec3<double>(1));
+     },
+     "/probes/0/position", "2e-20 from the center of light 1", "at least 1e-18"},
+    {"TinyLightFarAway",
+     [](Scene& s) {
+         s.lights[1] = make_light({1e10, 0, 0}, 1e-17, Vec3<double>(1));
+     },
+     "/lights/1/radius", "1e-17, ", "square of the distance is at least 1e-36"},
+    {"CameraNearATinyLight",
+     [](Scene& s) {
+         s.camera->position = {0, 0, 0}, s.camera->target = {1, 0, 0};
+         s.lights[1] = make_light({0, 1e-17, 0}, 1e-20, Vec3<double>(1));
+     },
+     "/camera/position", "1e-17 from the center of light 1", "at least 1e-15"},
     {"LightRadianceTiny", [](Scene& s) { s.lights[1].radiance_radius = Vec3<float>(5e-38f); },
      "/lights/1/radiance", "e-38", "between 1e-37"},
 };
@@ -307,6 +324,8 @@ TEST(NearestName, OffersWhatWasProbablyMeantAndNothingElse)
     EXPECT_EQ(nearest_name("GGX", material_type_names), "ggx");
     EXPECT_EQ(nearest_name("bilnn", material_type_names), "blinn");
     EXPECT_EQ(nearest_name("lectures", material_type_names), "lecture");
+    EXPECT_EQ(nearest_name("lam", material_type_names), "lambert");
+    EXPECT_EQ(nearest_name("l", material_type_names), "");
     EXPECT_EQ(nearest_name("mirror", material_type_names), "");
     EXPECT_EQ(nearest_name("", material_type_names), "");
 }

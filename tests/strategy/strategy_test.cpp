@@ -157,6 +157,33 @@ TEST(Strategy, AnUnknownNameGetsTheNearestAndTheList)
         EXPECT_NE(refusal(name), "") << "\"" << name << "\" is taken";
 }
 
+TEST(Strategy, RankedByDefaultAreTheClassicsOnEveryScene)
+{
+    using testing::ElementsAre;
+    for (const std::size_t lights : {0, 1, 2, 32, 33, 1'000'000})
+        for (const bool has_lobes : {false, true}) {
+            EXPECT_THAT(
+                ranked_by_default(policy_names(), lights, has_lobes),
+                ElementsAre("uniform", "power", "solid-angle", "radiant-solid-angle", "all"));
+            EXPECT_THAT(ranked_by_default(heuristic_names(), lights, has_lobes),
+                        ElementsAre("light", "balance", "power"));
+            EXPECT_THAT(ranked_by_default(technique_names(), lights, has_lobes),
+                        ElementsAre("brdf"));
+        }
+}
+
+TEST(Strategy, RankedByDefaultMayDependOnTheScene)
+{
+    using testing::ElementsAre;
+    const std::vector<Choosable> list{
+        {"many", "", [](std::size_t lights, bool) { return lights > 32; }},
+        {"glossy", "", [](std::size_t, bool has_lobes) { return has_lobes; }},
+        {"silent", ""}};
+    EXPECT_THAT(ranked_by_default(list, 32, false), ElementsAre());
+    EXPECT_THAT(ranked_by_default(list, 33, false), ElementsAre("many"));
+    EXPECT_THAT(ranked_by_default(list, 33, true), ElementsAre("many", "glossy"));
+}
+
 TEST(Strategy, EveryRegisteredNameHasASummaryAndIsListedOnce)
 {
     for (const auto& list : {policy_names(), heuristic_names(), technique_names()}) {

@@ -96,7 +96,7 @@ template <class K, class T> void expect_density_is_the_draws()
         const Vec2<double> u = uniforms.pair();
         const CapDraw<T> draw =
             K::draw(cap, vec_cast<T>(n), Vec2<T>{static_cast<T>(u.x), static_cast<T>(u.y)});
-        const T cos_theta = draw.wi.z;
+        const T cos_theta = draw.cos_theta;
         const double inverse = static_cast<double>(cap.sin_max) *
                                static_cast<double>(cap.sin_max * draw.inverse_pdf_sin2);
         ASSERT_NEAR(inverse * static_cast<double>(K::pdf(cap, vec_cast<T>(n), cos_theta)), 1, 1e-5);

@@ -53,6 +53,23 @@ TEST(AnalyticTracer, SmoothNormalsAreInterpolatedAndUnit)
     EXPECT_NEAR(length(hit->n - expected), 0, 1e-7);
 }
 
+/// A normal that leans beyond the outline: its triangle is seen from the front, itself from behind.
+TEST(AnalyticTracer, AShadingNormalIsTurnedToTheRayWhicheverSideOfTheSurfaceThatIs)
+{
+    Scene scene = three_shapes();
+    std::get<Mesh>(scene.surfaces[2].shape).normals.assign(3, {0.8F, 0, 0.6F});
+    const AnalyticTracer tracer(scene);
+    const Vec3<double> direction = normalized(Vec3<double>{4, 0, -1}), on{3.25, 1.25, 0};
+    for (const double side : {1.0, -1.0}) {  // the triangle's front and back
+        const Vec3<double> along{direction.x, 0, side * direction.z};
+        const auto hit = tracer.first_hit(on - along * 0.2, along);
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->geometric, (Vec3<double>{0, 0, side}));
+        EXPECT_NEAR(length(hit->n + Vec3<double>{0.8, 0, 0.6}), 0, 1e-7);
+        EXPECT_EQ(hit->is_n_behind(), side > 0);
+    }
+}
+
 TEST(AnalyticTracer, HidesStrictlyBeforeTheDistance)
 {
     const Scene scene = three_shapes();

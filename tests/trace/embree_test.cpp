@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace mis {
 namespace {
 
@@ -74,6 +76,18 @@ bool answers_differ_around(const Vec3<double>& origin, const Vec3<double>& direc
                    normalized(direction + uniforms.direction() * edge)) != usual)
             return true;
     return false;
+}
+
+TEST(EmbreeTracer, SaysItsErrorsInWords)
+{
+    std::set<std::string> all;
+    for (int code = 0; code <= 6; ++code) {  // RTC_ERROR_NONE to RTC_ERROR_CANCELLED
+        all.insert(embree_error(code));
+        EXPECT_EQ(embree_error(code).find(std::to_string(code)), std::string::npos);
+    }
+    EXPECT_EQ(all.size(), 7U);
+    EXPECT_EQ(embree_error(4), "out of memory");
+    EXPECT_EQ(embree_error(77), "error 77");
 }
 
 TEST(EmbreeTracer, HidesWhatTheClosedFormsHide)

@@ -184,7 +184,21 @@ TEST(Sentences, SayWhatIsExact)
     const std::string text =
         all_of(scene_of({simulate_exact("x"), simulate("a", uniform_samples(0.1))}));
     expect_said(text, "Use x/power");
-    expect_said(text, "x/power is exact here");
+    expect_said(text, "x/power is exact here, without variance: every sample is the answer");
+}
+
+/// The clock's noise makes now the one, now the other seem the faster; twice as slow is no noise.
+TEST(Sentences, NameTheSameOfExactOnesThatAreAsFastWhateverTheClockSays)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const Simulation sim{.seed = seed}, slow{.seed = seed, .seconds_per_sample = 2e-8};
+        const auto verdict = [](const StrategyMeasurements& first) {
+            return all_of(scene_of(
+                {first, simulate_exact("y", {.seed = 99}), simulate("a", uniform_samples(0.1))}));
+        };
+        expect_said(verdict(simulate_exact("x", sim)), "Use x/power");
+        expect_said(verdict(simulate_exact("x", slow)), "Use y/power");
+    }
 }
 
 TEST(Sentences, SayThatTheLeastVarianceCostsMore)

@@ -2,14 +2,14 @@
 
 #include "mis/math/limits.h"
 #include "mis/run/tbb.h"
+#include "mis/scene/nearest_name.h"
 #include "mis/study/study.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
-#include <exception>
 
 namespace mis::python {
 
@@ -42,16 +42,19 @@ std::vector<Strategy> parsed(const std::vector<std::string>& names)
 NumberSource source_of(const std::string& sampler, std::uint64_t seed)
 {
     if (sampler != "independent" && sampler != "sobol")
-        throw ArgumentError("sampler: found \"" + sampler + "\"; known are independent, sobol");
+        throw ArgumentError(
+            "sampler: found \"" + sampler + "\"; known are independent, sobol\n    " +
+            did_you_mean(sampler, std::array<std::string_view, 2>{"independent", "sobol"},
+                         "Give one of them."));
     return {seed, sampler == "sobol" ? one_scrambling : 0};
 }
 
 }  // namespace
 
-ReadyScene::ReadyScene(Scene s)
+ReadyScene::ReadyScene(Scene s, const StopToken& stop)
     : scene(std::move(s)),
-      tracer(scene.surfaces.empty() ? nullptr : std::make_unique<EmbreeTracer>(scene)),
-      lit(scene, tracer.get(), called_for(scene))
+      tracer(scene.surfaces.empty() ? nullptr : std::make_unique<EmbreeTracer>(scene, stop)),
+      lit(scene, tracer.get(), called_for(scene), stop)
 {
 }
 
@@ -63,20 +66,20 @@ Picture render(const ReadyScene& ready, const std::string& strategy, std::int64_
     check_range("spp", spp, 1, most_samples);
     const AnyExecutor executor = executor_of(run);
     const ReadyStrategy<float> prepared(ready.lit, parse_strategy(strategy), kernels<float>(),
-                                        source_of(sampler, run.seed));
+                                        source_of(sampler, run.seed), {}, run.token());
     const auto [width, height] = ready.scene.camera->resolution;
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     Picture picture{.image = {width, height, std::vector<Vec3<float>>(pixels, Vec3<float>(0.0F))},
                     .variance = std::vector<double>(pixels, nan)};
     WorkspacePool<float> workspaces;
-    Band band = find_band(ready.lit, 0, height, executor);
+    Band band = find_band(ready.lit, 0, height, stoppable(executor, run.token()));
     constexpr std::int64_t step = 16;
     for (std::int64_t s = 0; s < spp; s += step) {
-        if (run.may_stop) run.may_stop();
         picture.invalid +=
             light_band(prepared, band, static_cast<std::uint64_t>(s),
-                       static_cast<int>(std::min(step, spp - s)), workspaces, executor)
+                       static_cast<int>(std::min(step, spp - s)), workspaces, executor, run.token())
                 .invalid;
+        run.token().check();
     }
     draw_band(ready.lit, band, picture.image);
     for (std::size_t p = 0; p < band.results.size(); ++p)
@@ -104,7 +107,7 @@ OnePoint found(const ReadyScene& ready, const Place& place, const AnyExecutor& e
         if (scene.probes.empty())
             throw ArgumentError(scene.file + ": found no probes; name a pixel");
         check_range("probe", *probe, 0, static_cast<std::int64_t>(scene.probes.size()) - 1);
-        one.buffer = probe_points(scene, ready.lit.lights(), ready.tracer.get());
+        one.buffer = probe_points(scene, ready.lit.lights(), ready.tracer.get(), executor);
         id = std::int64_t{size[0]} * size[1] + *probe;
     } else {
         const auto [column, row] = std::get<std::array<std::int64_t, 2>>(place);
@@ -133,34 +136,33 @@ std::vector<double> samples(const ReadyScene& ready, const std::string& strategy
 {
     check_range("count", count, 0, most_samples);
     check_range("first", first, 0, most_samples);
-    const AnyExecutor executor = executor_of(run);
+    const AnyExecutor executor = stoppable(executor_of(run), run.token());
     const ReadyStrategy<float> prepared(ready.lit, parse_strategy(strategy), kernels<float>(),
-                                        source_of(sampler, run.seed));
+                                        source_of(sampler, run.seed), {}, run.token());
     const OnePoint one = found(ready, place, executor);
     std::vector<double> values(static_cast<std::size_t>(count), 0.0);
     if (one.point == nullptr) return values;
 
-    constexpr std::size_t block = 1 << 14, round = 64;  // blocks between two looks at may_stop
+    constexpr std::size_t block = 1 << 14;
     const std::size_t blocks = (values.size() + block - 1) / block;
     WorkspacePool<float> workspaces;
-    for (std::size_t done = 0; done < blocks; done += round) {
-        if (run.may_stop) run.may_stop();
-        executor.for_each(std::min(round, blocks - done), [&](std::size_t b) {
-            const std::size_t begin = (done + b) * block;
-            const std::size_t size = std::min(block, values.size() - begin);
-            std::vector<ChunkTotals> each(size);  // a chunk of one sample has its luminance
-            PointResult result;
-            workspaces.with([&](Workspace<float>& workspace) {
-                workspace.run(prepared.job(*one.tile, {one.point, 1}),
-                              prepared.pipeline(one.tile->material),
-                              {.first = static_cast<std::uint64_t>(first) + begin,
-                               .chunk = 1,
-                               .chunks = static_cast<int>(size)},
-                              {&result, 1}, {}, each);
-            });
-            for (std::size_t i = 0; i < size; ++i) values[begin + i] = each[i].mean;
+    const StopToken stop = run.token();
+    TileJob<float> job = prepared.job(*one.tile, {one.point, 1});
+    job.stop = &stop;
+    executor.for_each(blocks, [&](std::size_t b) {
+        const std::size_t begin = b * block;
+        const std::size_t size = std::min(block, values.size() - begin);
+        std::vector<ChunkTotals> each(size);  // a chunk of one sample has its luminance
+        PointResult result;
+        workspaces.with([&](Workspace<float>& workspace) {
+            workspace.run(job, prepared.pipeline(one.tile->material),
+                          {.first = static_cast<std::uint64_t>(first) + begin,
+                           .chunk = 1,
+                           .chunks = static_cast<int>(size)},
+                          {&result, 1}, {}, each);
         });
-    }
+        for (std::size_t i = 0; i < size; ++i) values[begin + i] = each[i].mean;
+    });
     return values;
 }
 
@@ -213,18 +215,9 @@ Report compare(const ReadyScene& ready, const std::vector<std::string>& strategi
     study.samples_per_scrambling = samples_per_scrambling(options);
     if (options.spp) study.spp = static_cast<std::uint64_t>(*options.spp);
     study.seconds = options.seconds, study.error = options.error;
-    std::atomic<bool> stop{false};
-    std::exception_ptr stopped;
-    study.stop = &stop;
-    study.progress = [&](double, const SceneReport&) {
-        try {
-            if (run.may_stop && !stop) run.may_stop();
-        } catch (...) {
-            stopped = std::current_exception(), stop = true;
-        }
-    };
+    study.stop = run.stop;
     const Study found = run_study(ready.lit, list, study, executor);
-    if (stopped) std::rethrow_exception(stopped);
+    run.token().check();
     if (found.points->figure_points == 0)
         throw ArgumentError(ready.scene.file + ": found nothing to light: no surface is in view");
     Report report{{.version = MIS_VERSION}};
@@ -246,9 +239,10 @@ std::vector<Predicted> predict(const ReadyScene& ready, const std::vector<std::s
                             ": found no probes; predict answers at probes alone\n"
                             "    Add \"probes\" to the scene.");
     std::vector<std::vector<Predicted>> of_probes(scene.probes.size());
-    const AnyExecutor executor = executor_of(run);
+    const AnyExecutor executor = stoppable(executor_of(run), run.token());
     executor.for_each(scene.probes.size(), [&](std::size_t p) {
-        of_probes[p] = mis::predict(scene, scene.probes[p], list, {}, {.executor = &executor});
+        of_probes[p] = mis::predict(scene, scene.probes[p], list, {},
+                                    {.executor = &executor, .stop = run.token()});
     });
     std::vector<Predicted> all;
     for (const auto& probe : of_probes) all.insert(all.end(), probe.begin(), probe.end());

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "mis/engine/render.h"
+#include "mis/math/stop_token.h"
 #include "mis/predict/predict.h"
 #include "mis/report/report.h"
 #include "mis/trace/embree.h"
 
 #include <array>
-#include <functional>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,7 +20,8 @@ namespace mis::python {
 
 /// A scene with all that lighting it takes.
 struct ReadyScene {
-    explicit ReadyScene(Scene s);
+    /// Throws Stopped.
+    explicit ReadyScene(Scene s, const StopToken& stop = {});
     ReadyScene(const ReadyScene&) = delete;
     ReadyScene& operator=(const ReadyScene&) = delete;
 
@@ -36,9 +38,10 @@ struct ArgumentError : std::runtime_error {
 /// How to run. Throws ArgumentError where `threads` is out of range.
 struct Run {
     std::uint64_t seed = 1;
-    int threads = 0;  ///< 0: as many as the machine has
-    std::function<void()>
-        may_stop;  ///< called now and then, by one thread; ends the run by throwing
+    int threads = 0;                          ///< 0: as many as the machine has
+    const std::atomic<bool>* stop = nullptr;  ///< set from outside: ends the run, with Stopped
+
+    StopToken token() const { return StopToken(stop); }
 };
 
 struct Picture {

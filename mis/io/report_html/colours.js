@@ -19,9 +19,8 @@ const difference_colours = colour_table(difference_scale);
 
 /// A strategy's colour as winner: its policy's, the heuristics lighter and darker.
 function winner_colour(s) {
-  const shift = { light: 1.0, balance: 0, power: -1.0, cutoff: 1.8, maximum: -1.8 }[s.heuristic] ?? 0;
   const colour = d3.lab(colour_of(s));
-  colour.l += 13 * shift + (is_hollow(s) ? 6 : 0);
+  colour.l += 13 * (mark_of(s)?.lighter ?? 0) + (is_hollow(s) ? 6 : 0);
   return d3.rgb(colour);
 }
 /// Where the policy alone is sure: its colour, paler.

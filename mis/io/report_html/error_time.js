@@ -46,7 +46,7 @@ function draw_curve(parent, c, x, y, high, low) {
     points.push([x(t), y(Math.min(c.error(t), high * 2))]);
   }
   const d = d3.line()(points.filter((p) => p.every(isFinite)));
-  parent.append("path").attr("class", "curve").attr("data-strategy", s.name).attr("stroke", colour_of(s)).attr("stroke-dasharray", heuristic_dashes[s.heuristic] ?? null).attr("d", d);
+  parent.append("path").attr("class", "curve").attr("data-strategy", s.name).attr("stroke", colour_of(s)).attr("stroke-dasharray", mark_of(s)?.dash ?? null).attr("d", d);
   const t = s.seconds_to_1_percent, at = Math.sqrt(Math.min(1e-4, c.variance));
   add_mark(parent, s, x(t), y(at), 90);
   const interval = s.seconds_to_1_percent_interval;

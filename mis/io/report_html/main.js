@@ -14,7 +14,7 @@ function sentence_parts(sentence, names) {
 /// What the strategy's name says, in words.
 function meaning_of(s) {
   if (s.policy === null) return `${s.name}: ${glossary.technique[s.technique] ?? "no light is chosen"}.`;
-  const how = s.heuristic === "light" ? glossary.heuristic.light : `the light draw and the BSDF draw are weighed ${glossary.heuristic[s.heuristic] ?? "by " + s.heuristic}`;
+  const how = s.counts[1] === 0 ? glossary.heuristic[s.heuristic] : `the light draw and the BSDF draw are weighed ${glossary.heuristic[s.heuristic] ?? "by " + s.heuristic}`;
   const technique = s.technique === "cone" ? "" : ` The direction: ${glossary.technique[s.technique] ?? s.technique}.`;
   const which = glossary.policy[s.policy] ?? s.policy;
   return `That is: ${which.startsWith("one draw") ? which : "the light is drawn " + which}; ${how}.${technique}`;

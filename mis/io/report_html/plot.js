@@ -1,19 +1,5 @@
-// What all plots share: colours of policies, marks of heuristics, frames, and saving.
+// What all plots share: marks, frames, axes, and saving.
 
-/// Okabe and Ito's colours, which colour-blind eyes tell apart, one per policy; darker where they would be pale on white:
-/// each is 3 to 1 against a light ground and a dark one.
-const policy_colours = { uniform: "#C27E00", power: "#2E93CC", "solid-angle": "#009E73", "radiant-solid-angle": "#D55E00", all: "#CC79A7", irradiance: "#0072B2" };
-const more_colours = ["#7466B4", "#B04A6A", "#4D7F2B", "#8C6D1F"], no_policy_colour = "#96673B";
-const heuristic_marks = { light: d3.symbolCircle, balance: d3.symbolSquare, power: d3.symbolTriangle, cutoff: d3.symbolDiamond, maximum: d3.symbolStar };
-const heuristic_dashes = { light: "1 4", balance: "7 3", power: null, cutoff: "7 3 1 3", maximum: "2 2" };
-
-function colour_of(s) {
-  if (s.policy === null) return no_policy_colour;
-  if (policy_colours[s.policy]) return policy_colours[s.policy];
-  const others = Object.keys(glossary.policy).filter((name) => !policy_colours[name]);
-  return more_colours[Math.max(0, others.indexOf(s.policy)) % more_colours.length];
-}
-const mark_path = (s, size = 70) => d3.symbol().type(heuristic_marks[s.heuristic] ?? d3.symbolCross).size(size)();
 /// Strategies of one policy and heuristic, told apart by hollow marks: another technique, model or counts.
 const is_hollow = (s) => s.policy !== null && (s.technique !== "cone" || s.model !== "multi" || Math.max(...s.counts) > 1);
 
@@ -124,8 +110,7 @@ function draw_legend() {
   const strategies = scene_now().strategies;
   $("legend").replaceChildren(...strategies.map((s) => make("button", { type: "button", ariaPressed: "false", "data-strategy": s.name, onclick: () => choose(s.name) }, mark_icon(s), make("bdi", {}, s.name))));
   const used = Object.keys(heuristic_marks).filter((h) => strategies.some((s) => s.heuristic === h));
-  const shape = { light: "circle", balance: "square", power: "triangle", cutoff: "diamond", maximum: "star" };
   $("mark-key").textContent = "Colour: which light is drawn (policy). Shape and dash: how draws are combined (heuristic) – " +
-    used.map((h) => `${shape[h]} ${h}`).join(", ") + ", cross: no light is chosen" +
+    used.map((h) => `${heuristic_marks[h].word} ${h}`).join(", ") + ", cross: no light is chosen" +
     (strategies.some(is_hollow) ? "; hollow: another technique, model or count of draws." : ".");
 }

@@ -1,4 +1,4 @@
-#include "mis/study/audit.h"
+#include "tests/study/scalar_audit.h"
 
 #include "mis/engine/scalar_choices.h"
 #include "mis/math/cap.h"
@@ -21,8 +21,8 @@ constexpr std::size_t draw_groups = 8;
 /// A group looks so many times at least, all points together: few points are looked at more often.
 constexpr std::size_t fewest_looks = 1024;
 
-/// Sample numbers of the audit start here: no strategy draws from them.
-constexpr std::uint64_t first_sample = std::uint64_t{1} << 48;
+/// Sample numbers start here: neither a strategy nor shared samples draw from them.
+constexpr std::uint64_t first_sample = std::uint64_t{1} << 49;
 
 /// Integrals of one strategy at one point, from one group of draws: of w²F²/p of both techniques,
 /// and of wF of each.
@@ -267,9 +267,9 @@ double standard_error(const LeftOut& figure)
 
 }  // namespace
 
-std::vector<AuditEstimate> audit(const LitScene& scene, std::span<const AuditPoint> points,
-                                 std::span<const Strategy> strategies, std::uint64_t seed,
-                                 const AnyExecutor& executor)
+std::vector<AuditEstimate> scalar_audit(const LitScene& scene, std::span<const AuditPoint> points,
+                                        std::span<const Strategy> strategies, std::uint64_t seed,
+                                        const AnyExecutor& executor)
 {
     std::vector<AuditEstimate> estimates(strategies.size());
     if (points.empty()) return estimates;

@@ -17,4 +17,19 @@ template <class Error> [[noreturn]] void raise(const std::string& what)
 #endif
 }
 
+/// body(); did it end without throwing Error? In a host that is built without exceptions it did.
+template <class Error, class Body> bool ends_without(const Body& body)
+{
+#if defined(__cpp_exceptions)
+    try {
+        body();
+    } catch (const Error&) {
+        return false;
+    }
+#else
+    body();
+#endif
+    return true;
+}
+
 }  // namespace mis
