@@ -1,6 +1,7 @@
 #include "mis/stats/figures.h"
 
 #include "mis/math/limits.h"
+#include "mis/math/stable.h"
 #include "mis/stats/exactness.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figu
         return;
     }
     LogEstimate cost = product(log_contrast(figures.variances, {}), seconds);
-    report.efficiency = interval_about(1 / (figures.variance * std::exp(seconds.value)), cost);
+    report.efficiency = interval_about(inverse(figures.variance * std::exp(seconds.value)), cost);
 }
 
 }  // namespace

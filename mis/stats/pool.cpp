@@ -1,5 +1,7 @@
 #include "mis/stats/pool.h"
 
+#include "mis/math/stable.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -39,7 +41,8 @@ PooledFigures pool_points(std::span<const Moments> points, std::span<const doubl
         if (point.mean == 0 && point.m2 == 0) ++pooled.zero_points;
         else
             pooled.largest_relative_variance =
-                std::max(pooled.largest_relative_variance, variance / (point.mean * point.mean));
+                std::max(pooled.largest_relative_variance,
+                         variance == 0 ? 0 : variance * inverse(point.mean * point.mean));
         if (scale[i] > 0) {
             pooled.relative_variance += variance / scale[i];
             add(pooled.relative_participation, point, per_sample / scale[i]);

@@ -27,8 +27,9 @@ struct LightSums {
     /// guessed: where it was not drawn yet.
     double center(double guessed) const
     {
+        if (!(mass > 0)) return guessed;
         const double known = static_cast<double>(mean) / static_cast<double>(mass);
-        return mass > 0 && std::isfinite(known) ? known : guessed;
+        return std::isfinite(known) ? known : guessed;
     }
 };
 
