@@ -83,7 +83,8 @@ Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Str
 {
     const ReadyStrategy<T> ready(lit, strategy, kernels<T>(), numbers_of(options), {},
                                  interrupt_token());
-    const Replay again = replay(lit, ready, *found.tile, *found.point, options.sample, interrupt_token());
+    const Replay again =
+        replay(lit, ready, *found.tile, *found.point, options.sample, interrupt_token());
     if (prints) print_steps(again);
     return again.value;
 }
