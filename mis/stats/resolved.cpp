@@ -34,35 +34,40 @@ bool is_exact_by_proof(const StrategyMeasurements& s)
     return s.is_proved_exact && s.all_samples_equal_reference;
 }
 
-/// What the audit has against its variance, or its relative variance; nothing where it has nothing,
-/// or where there was none.
-std::optional<Check> variance_fault(const StrategyMeasurements& s)
+/// Where one figure's audit stands.
+struct AuditedFigure {
+    bool is_relative;
+    bool Audit::*available;
+    double Audit::*from_others, Audit::*from_others_se, Audit::*own, Audit::*own_se;
+};
+constexpr AuditedFigure audited_variance{false,
+                                         &Audit::available,
+                                         &Audit::variance_from_others,
+                                         &Audit::variance_from_others_se,
+                                         &Audit::own_variance,
+                                         &Audit::own_variance_se};
+constexpr AuditedFigure audited_relative_variance{true,
+                                                  &Audit::relative_available,
+                                                  &Audit::relative_variance_from_others,
+                                                  &Audit::relative_variance_from_others_se,
+                                                  &Audit::own_relative_variance,
+                                                  &Audit::own_relative_variance_se};
+
+/// What the audit has against a figure; nothing where it has nothing, or where there was none.
+std::optional<Check> fault_of(const StrategyMeasurements& s, const AuditedFigure& figure)
 {
     const Audit& a = s.audit;
-    const Check check{false,
-                      a.variance_from_others,
-                      a.variance_from_others_se,
-                      a.own_variance,
-                      a.own_variance_se,
-                      rounding_of_variances * s.pooled.mean * s.pooled.mean};
-    return a.available && check.fails() ? std::optional(check) : std::nullopt;
+    const double unit = figure.is_relative ? 1 : s.pooled.mean * s.pooled.mean;
+    const Check check{figure.is_relative, a.*figure.from_others, a.*figure.from_others_se,
+                      a.*figure.own,      a.*figure.own_se,      rounding_of_variances * unit};
+    return a.*figure.available && check.fails() ? std::optional(check) : std::nullopt;
 }
-std::optional<Check> relative_fault(const StrategyMeasurements& s)
-{
-    const Audit& a = s.audit;
-    const Check check{true,
-                      a.relative_variance_from_others,
-                      a.relative_variance_from_others_se,
-                      a.own_relative_variance,
-                      a.own_relative_variance_se,
-                      rounding_of_variances};
-    return a.relative_available && check.fails() ? std::optional(check) : std::nullopt;
-}
+
 std::optional<Check> audit_fault(const StrategyMeasurements& s)
 {
     if (is_exact_by_proof(s)) return std::nullopt;
-    const std::optional<Check> fault = variance_fault(s);
-    return fault ? fault : relative_fault(s);
+    const std::optional<Check> fault = fault_of(s, audited_variance);
+    return fault ? fault : fault_of(s, audited_relative_variance);
 }
 
 reason::Observations observations(const StrategyMeasurements& s)
@@ -104,7 +109,7 @@ AuditedGrowth audited_growth(const StrategyMeasurements& s)
         return !is_exact_by_proof(s) && fault && fault->own > 0 ? fault->at_least() / fault->own
                                                                 : 1;
     };
-    return {growth(variance_fault(s)), growth(relative_fault(s))};
+    return {growth(fault_of(s, audited_variance)), growth(fault_of(s, audited_relative_variance))};
 }
 
 Reason why_blind(const StrategyMeasurements& s)
