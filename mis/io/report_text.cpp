@@ -25,7 +25,10 @@ std::string heading(const SceneReport& scene, const Report& report)
     if (report.is_sobol) text += fmt::format(", Sobol' sequences of {:.0f} samples", report.at);
     if (scene.seconds > 0) text += fmt::format(", {}", short_duration(scene.seconds));
     text += setup_text(scene.setup);
-    text += scene.partial ? ", stopped early" : scene.settled ? ", settled" : ", not settled";
+    text += scene.partial   ? ", stopped early"
+            : scene.settled ? ", settled"
+            : scene.decided ? ", decided"
+                            : ", not decided";
     return wrapped(text);
 }
 

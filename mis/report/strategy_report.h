@@ -65,6 +65,10 @@ struct StrategyReport {
     int rank = 0, rank_low = 0, rank_high = 0;  ///< by variance; 0 where not ranked
     int rank_by_efficiency = 0, rank_by_efficiency_low = 0, rank_by_efficiency_high = 0;
     std::vector<std::string> tied_with;           ///< names, by variance
+    /// By time to 1 %, or without times by variance (stats/decision.h); for all strategies together.
+    bool may_be_best = false;
+    /// The share by which it may be behind the best at most; NaN where nothing is known.
+    double behind_at_most = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t samples = 0;                    ///< over all shading points
     double mean = 0, mean_se = 0;                 ///< luminance, over the shading points
     Interval variance;                            ///< of one sample (docs/theory.md (70) where
@@ -102,6 +106,8 @@ template <class Visitor, Either<StrategyReport> S> void describe(Visitor& v, S& 
     v.place(Field("rank_low"), s.rank_low);
     v.place(Field("rank_high"), s.rank_high);
     v.names(Field("tied_with"), s.tied_with);
+    v.flag(Field("may_be_best").later(), s.may_be_best);
+    v.size(Field("behind_at_most").later(), s.behind_at_most);
     v.place(Field("rank_by_efficiency"), s.rank_by_efficiency);
     v.place(Field("rank_by_efficiency_low"), s.rank_by_efficiency_low);
     v.place(Field("rank_by_efficiency_high"), s.rank_by_efficiency_high);

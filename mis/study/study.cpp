@@ -276,8 +276,7 @@ private:
     /// share: of the probabilities of error that this look spends.
     void rank_now(double share)
     {
-        const std::vector<PairReport> earlier =
-            goal_.stops_when_settled() ? std::move(report_.pairs) : std::vector<PairReport>();
+        const SceneReport* earlier = goal_.stops_when_settled() ? &report_ : nullptr;
         const auto ranked = [&](const SceneMeasurements& scene) {
             return rank(scene, {.threads = ground_.executor.threads,
                                 .at = options_.at,
@@ -290,12 +289,8 @@ private:
         };
         if (reference_.trust_fewer(is_ranked))  // some were biased
             ranking = ranked(reference_.of_trusted());
-        report_.strategies = std::move(ranking.strategies);
-        report_.pairs = std::move(ranking.pairs);
-        report_.settled = ranking.settled;
-        report_.replicates = ranking.replicates;
+        put_ranking(std::move(ranking), elapsed(), report_);
         report_.epsilon = reference_.epsilon();
-        report_.seconds = elapsed();
         report_.lacks_audit = !audit_ && !is_dark();
         report_.had_no_time_for_audit = report_.lacks_audit && !numbers().is_sobol();
     }

@@ -7,9 +7,11 @@
 
 namespace mis {
 
-/// What a scene's report says, in words. First the verdict: which strategy to use here, how sure
-/// that is, and what it saves against what is commonly used (uniform/power, power/power, brdf; else
-/// the next best). Then ties, what is undecided, and why each strategy that is not ranked is not.
+/// What a scene's report says, in words. First the verdict: which strategy to use here; how sure
+/// that is; what it saves against the next best that is surely behind, and what is commonly used
+/// (uniform/power, power/power, brdf); and where it draws more lights than one, which to use of the
+/// others. Then which strategies are the same, ties, what is undecided, and why each strategy that
+/// is not ranked is not.
 /// threads, margin: of the report.
 std::vector<std::string> sentences_of(const SceneReport& scene, int threads, double margin);
 

@@ -39,13 +39,15 @@ TEST(Rank, LetsEarlierVerdictsStand)
     const StrategyMeasurements a = simulate("a", uniform_samples(0.1)),
                                b = simulate("b", uniform_samples(0.105));
     const SceneMeasurements scene{64, {a, b}};
-    const std::vector<PairReport> earlier = rank(scene, {}).pairs;
-    ASSERT_EQ(earlier[0].verdict, Verdict::apart);
+    SceneReport earlier;
+    put_ranking(rank(scene, {}), 1, earlier);
+    ASSERT_EQ(earlier.pairs[0].verdict, Verdict::apart);
     EXPECT_EQ(rank(scene, {.share = 1e-6}).pairs[0].verdict, Verdict::undecided);
-    EXPECT_EQ(rank(scene, {.share = 1e-6, .earlier = earlier}).pairs[0].verdict, Verdict::apart);
-    std::vector<PairReport> turned = earlier;
-    std::swap(turned[0].a, turned[0].b);
-    EXPECT_EQ(rank(scene, {.share = 1e-6, .earlier = turned}).pairs[0].verdict, Verdict::undecided);
+    EXPECT_EQ(rank(scene, {.share = 1e-6, .earlier = &earlier}).pairs[0].verdict, Verdict::apart);
+    SceneReport turned = earlier;
+    std::swap(turned.pairs[0].a, turned.pairs[0].b);
+    EXPECT_EQ(rank(scene, {.share = 1e-6, .earlier = &turned}).pairs[0].verdict,
+              Verdict::undecided);
 }
 
 }  // namespace
