@@ -36,6 +36,18 @@ std::string strategy_help()
            "Techniques:\n" + described(technique_names());
 }
 
+/// What stands in place of lists that are not given.
+std::string default_list()
+{
+    constexpr std::size_t many_lights = 1'000'000;
+    const auto ranked = [](const std::vector<Choosable>& list) {
+        return fmt::format("{}", fmt::join(ranked_by_default(list, many_lights, true), ", "));
+    };
+    return ranked(policy_names()) + ", as far as they may differ on the scene, each with " +
+           ranked(heuristic_names()) + "; and " +
+           fmt::format("{}", fmt::join(strategies_ranked_by_default(many_lights, true), ", "));
+}
+
 /// What is wrong with the text of a whole number of that type, or nothing; the parser's own
 /// conversion would wrap −1 around.
 template <class Number> std::string whole_number_fault(const std::string& text)
@@ -162,9 +174,10 @@ void add_compare(CLI::App& app, CompareOptions& options)
     add_run_options(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
-        return "Without a list: every classic policy x light, balance, power, and brdf; until "
-               "settled, or 30 s per scene. Two reports: what changed, and how sure that "
-               "is.\n\nExamples:\n"
+        return "Without a list: " + default_list() +
+               ". Without --spp, --time or --error: until it is decided which to use and every "
+               "variance is known to 25 %, or 30 s per scene. Two reports: what changed, and how "
+               "sure that is.\n\nExamples:\n"
                "  mis compare scenes/veach.json\n"
                "  mis compare scenes/street.json --policy power,radiant-solid-angle --heuristic "
                "light,power --json street-report.json\n"

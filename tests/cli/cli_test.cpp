@@ -544,13 +544,15 @@ TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
     EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
 }
 
-TEST(Compare, RanksTheClassicsWhereNothingIsNamed)
+TEST(Compare, RanksItsDefaultListWhereNothingIsNamed)
 {
     std::vector<std::string> expected;
-    for (const char* policy : {"uniform", "power", "solid-angle", "radiant-solid-angle", "all"})
+    for (const char* policy :
+         {"uniform", "power", "solid-angle", "radiant-solid-angle", "all", "irradiance", "product"})
         for (const char* heuristic : {"light", "balance", "power"})
             expected.push_back(std::string(policy) + "/" + heuristic);
-    expected.emplace_back("brdf");
+    for (const char* name : {"all/light/union", "product/light/projected", "brdf"})
+        expected.emplace_back(name);
     const Outcome run = mis_with("compare '" + scene("veach") + "' '" + scene("single") +
                                  "' --resolution 8x6 --spp 4 --json -");
     ASSERT_EQ(run.exit, 0) << run.error;
