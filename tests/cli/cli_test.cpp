@@ -544,28 +544,59 @@ TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
     EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
 }
 
+/// What stands in place of lists that are not given, where there are no more than 32 lights.
+std::vector<std::string> default_list(bool has_lobes)
+{
+    std::vector<std::string> policies{"uniform", "power", "solid-angle", "radiant-solid-angle",
+                                      "all"};
+    if (has_lobes) policies.emplace_back("irradiance");
+    policies.emplace_back("product");
+    std::vector<std::string> names;
+    for (const std::string& policy : policies)
+        for (const char* heuristic : {"light", "balance", "power"})
+            names.push_back(policy + "/" + heuristic);
+    for (const char* name : {"all/light/union", "product/light/projected", "brdf"})
+        names.emplace_back(name);
+    return names;
+}
+
+std::vector<std::string> strategies_of(const nlohmann::json& scene)
+{
+    std::vector<std::string> names;
+    for (const auto& strategy : scene.at("strategies")) names.push_back(strategy.at("name"));
+    return names;
+}
+
 TEST(Compare, RanksItsDefaultListWhereNothingIsNamed)
 {
-    std::vector<std::string> expected;
-    for (const char* policy :
-         {"uniform", "power", "solid-angle", "radiant-solid-angle", "all", "irradiance", "product"})
-        for (const char* heuristic : {"light", "balance", "power"})
-            expected.push_back(std::string(policy) + "/" + heuristic);
-    for (const char* name : {"all/light/union", "product/light/projected", "brdf"})
-        expected.emplace_back(name);
-    const Outcome run = mis_with("compare '" + scene("veach") + "' '" + scene("single") +
-                                 "' --resolution 8x6 --spp 4 --json -");
+    const Outcome run = mis_with("compare '" + scene("veach") + "' '" + scene("single") + "' '" +
+                                 scene("veach-blinn") + "' --resolution 8x6 --spp 4 --json -");
     ASSERT_EQ(run.exit, 0) << run.error;
     const auto json = nlohmann::json::parse(run.out);
-    ASSERT_EQ(json.at("scenes").size(), 2U);
-    for (const auto& scene : json.at("scenes")) {
-        std::vector<std::string> names;
-        for (const auto& strategy : scene.at("strategies")) names.push_back(strategy.at("name"));
-        EXPECT_EQ(names, expected);
-    }
-    const std::size_t told = run.error.find("left out:");
-    ASSERT_NE(told, run.error.npos);
-    EXPECT_EQ(run.error.find("left out:", told + 1), run.error.npos) << "once a run";
+    ASSERT_EQ(json.at("scenes").size(), 3U);
+    EXPECT_EQ(strategies_of(json.at("scenes")[0]), default_list(true));
+    EXPECT_EQ(strategies_of(json.at("scenes")[1]), default_list(false));
+    const std::size_t lobes = run.error.find(
+                          "left out: not ranked by default here; add "
+                          "--policy tree\n"),
+                      none = run.error.find("add --policy irradiance,tree\n");
+    ASSERT_NE(lobes, run.error.npos) << run.error;
+    EXPECT_NE(none, run.error.npos);
+    EXPECT_EQ(run.error.find("--policy tree", lobes + 60), run.error.npos) << "once a run";
+}
+
+TEST(Compare, RanksNoMoreThanTheListsThatAreNamed)
+{
+    const Outcome run = mis_with("compare '" + scene("single") + "' --resolution 8x6 --spp 4 " +
+                                 "--policy product --heuristic light --quiet --json -");
+    ASSERT_EQ(run.exit, 0) << run.error;
+    EXPECT_EQ(strategies_of(nlohmann::json::parse(run.out).at("scenes")[0]),
+              std::vector<std::string>{"product/light"});
+    const Outcome one = mis_with("compare '" + scene("single") + "' --resolution 8x6 --spp 4 " +
+                                 "--policy product --quiet --json -");
+    EXPECT_EQ(
+        strategies_of(nlohmann::json::parse(one.out).at("scenes")[0]),
+        (std::vector<std::string>{"product/light", "product/balance", "product/power", "brdf"}));
 }
 
 /// Mean and variance of every strategy of a report, to the last digit that is written.
