@@ -61,13 +61,13 @@ std::vector<int> candidates(const Contenders& among, const Gaps& gap)
     return found;
 }
 
-/// Those that could be best at earlier looks, too. Where there is none, one of the looks was wrong.
-std::vector<int> that_were(std::vector<int> now, std::span<const Standing> earlier)
+/// Those that could be best at earlier looks, too.
+std::vector<int> that_were(const std::vector<int>& now, std::span<const Standing> earlier)
 {
     std::vector<int> both;
     for (const int i : now)
-        if (earlier.empty() || earlier[static_cast<std::size_t>(i)].may_be_best) both.push_back(i);
-    return both.empty() ? now : both;
+        if (earlier[static_cast<std::size_t>(i)].may_be_best) both.push_back(i);
+    return both;
 }
 
 /// log of how far i may be behind the best, which is one of `best`.
@@ -111,11 +111,13 @@ Decision decide_best(const Contenders& among)
     decision.of.resize(among.strategies);
     if (among.members.empty()) return decision;
     const Gaps gap(among);
-    const std::vector<int> best = that_were(candidates(among, gap), among.earlier);
+    std::vector<int> best = candidates(among, gap);
+    const auto both = among.earlier.empty() ? std::vector<int>() : that_were(best, among.earlier);
+    if (!both.empty()) best = both;  // else one of the looks was wrong, and this one saw more
     for (const int i : among.members) {
         Standing& standing = decision.of[static_cast<std::size_t>(i)];
         standing.behind_at_most = std::expm1(behind(i, best, gap));
-        if (!among.earlier.empty())
+        if (!both.empty())
             standing.behind_at_most = std::min(
                 standing.behind_at_most, among.earlier[static_cast<std::size_t>(i)].behind_at_most);
     }

@@ -107,18 +107,21 @@ TEST(Decision, LetsStandWhatAnEarlierLookFound)
     EXPECT_FALSE(later.of[1].may_be_best);
     EXPECT_EQ(later.of[1].behind_at_most, first.of[1].behind_at_most);
     // All that could be best then cannot now: one look was wrong, and the later has seen more.
-    EXPECT_EQ(decided({1, 0}, 0.01, decided({0, 1}, 0.01).of).leader, 1);
+    const Decision turned = decided({1, 0}, 0.01, decided({0, 1}, 0.01).of);
+    EXPECT_EQ(turned.leader, 1);
+    EXPECT_GT(turned.of[0].behind_at_most, 1);
 }
 
 TEST(Decision, TakesTheFirstAskedForOfThoseThatAreAlike)
 {
     const std::vector<double> logs{0.2, 0.03, 0.02, 0};
-    const std::vector<Comparison> pairs = pairs_of(logs, 0.05);
+    const std::vector<Comparison> pairs = pairs_of(logs, 0.1);
     const std::vector<int> members = all_of(4);
     Contenders among{members, pairs, 4};
     EXPECT_EQ(decide_best(among).leader, 3);
     among.are_alike = [](int i, int j) { return i != 2 && j != 2; };
-    EXPECT_EQ(decide_best(among).leader, 1);  // 0 is more than 5 % behind
+    EXPECT_EQ(decide_best(among).leader, 1);  // 0 may be best, but is 20 % behind
+    EXPECT_TRUE(decide_best(among).of[0].may_be_best);
 }
 
 /// Of how many scenes, out of `runs`, anything is said that is not true, at 5 %. Strategies are

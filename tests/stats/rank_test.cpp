@@ -145,7 +145,7 @@ TEST(Rank, DecidesApartAmongThoseThatDrawOneLight)
                          four = simulate("uniform", uniform_samples(0.02));
     four.strategy.counts = {4, 1};
     StrategyMeasurements brdf = simulate("brdf", uniform_samples(0.1));
-    brdf.strategy = {.policy = "", .heuristic = "", .technique = "brdf"};
+    brdf.strategy = {.policy = "", .heuristic = "", .technique = "brdf", .counts = {0, 1}};
     SceneReport scene;
     put_ranking(rank_of({simulate("power", uniform_samples(0.2)), all, four, brdf}), 1, scene);
     EXPECT_EQ(scene.leader, "all/power");

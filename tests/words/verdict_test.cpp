@@ -254,6 +254,42 @@ TEST(Sentences, SayOnceThatPoliciesAreTheSame)
     EXPECT_EQ(all_of(scene).find("the policies"), std::string::npos);
 }
 
+TEST(Sentences, NameNoTwinAsARivalWhereThereIsAnother)
+{
+    SceneReport scene = one_light_scene();
+    scene.decided = false;
+    for (StrategyReport& s : scene.strategies)
+        s.may_be_best = s.strategy.chooses_light(), s.behind_at_most = 0.25;
+    EXPECT_EQ(sentences_of(scene, 2, 0.02)[1].find("Not decided: uniform/balance may be up to"), 0u)
+        << sentences_of(scene, 2, 0.02)[1];
+    for (StrategyReport& s : scene.strategies)
+        if (s.strategy.heuristic == "balance") s.may_be_best = false;
+    expect_said(sentences_of(scene, 2, 0.02)[1], "all/power");
+    expect_said(sentences_of(scene, 2, 0.02)[1], "power/power");
+}
+
+TEST(Sentences, QuoteAGainOverThatWhichSpeaksForAll)
+{
+    SceneReport scene = one_light_scene();
+    // power/balance is the first of its kind by the clock; uniform/balance was asked for first.
+    scene.strategies[4].seconds_to_1_percent.value *= 0.9;
+    for (PairReport& p : scene.pairs)
+        if (p.a == 4 || p.b == 4) p.time_verdict = Verdict::apart;
+    EXPECT_EQ(all_of(scene).find("sooner than power/balance"), std::string::npos) << all_of(scene);
+}
+
+TEST(Sentences, UseWhatTheReportSaysThoughAnotherIsFirstByTheClock)
+{
+    SceneReport scene = undecided_scene();
+    scene.decided = false;
+    scene.leader = "b/power";
+    for (int i = 0; i < 4; ++i) scene.strategies[i].may_be_best = i < 2;
+    scene.strategies[0].seconds_to_1_percent.value = 1e-9;
+    scene.strategies[1].seconds_to_1_percent.value = 1.1e-9;
+    expect_said(all_of(scene), "Use b/power");
+    EXPECT_EQ(sentences_of(scene, 2, 0.02)[1].find("Not decided: a/power may be"), 0u);
+}
+
 TEST(Sentences, SayThatTwoTechniquesAreTheSame)
 {
     StrategyMeasurements a = simulate("all", uniform_samples(0.1)), b = a;
