@@ -356,7 +356,7 @@ def complete(name, scene):
     ranking = table(["strategy", "rank", "variance", "efficiency", *FIGURES], rows)
     pixels = "{} × {} pixels".format(*scene["resolution"])
     size = f"{pixels}, {scene['shading_points']} points, {scene['samples']} samples of each; lights: {scene['lights']}"
-    return "\n\n".join([f"## {name}", size, ranking, *scene["sentences"][:2]])
+    return "\n\n".join([f"## {name}", size, ranking, *scene["sentences"][:3]])
 
 
 # The pictures, as SVG.

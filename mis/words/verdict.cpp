@@ -18,7 +18,7 @@ namespace {
 std::vector<int> alternatives(const SceneView& view, const SameStrategies& same,
                               const std::vector<int>& order)
 {
-    constexpr std::size_t most = 3;
+    constexpr std::size_t most = 2;
     std::vector<int> found;
     for (std::size_t k = 1; k < order.size() && found.size() < most; ++k) {
         const std::string is = view.name(order[k]);
