@@ -3,6 +3,7 @@
 #include "mis/math/limits.h"
 #include "mis/math/stable.h"
 #include "mis/stats/exactness.h"
+#include "mis/stats/two_way.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,13 @@ namespace mis {
 namespace {
 
 using Seconds = std::vector<double> Figures::*;
+
+/// Without those of rounds that it took no part in.
+std::vector<double> known(std::vector<double> seconds)
+{
+    std::erase_if(seconds, [](double s) { return std::isnan(s); });
+    return seconds;
+}
 
 /// Logarithm of the ratio of the medians; its error from the rounds that both took part in, which a
 /// drifting machine disturbed alike. Of fewer than six rounds, from the noise that all strategies
@@ -26,7 +34,7 @@ LogEstimate log_median_ratio(const Figures& a, const Figures& b, Seconds seconds
             logs.push_back(std::log(of_a[i] / of_b[i]));  // a coarse clock may say 0
     const double n = static_cast<double>(logs.size());
     LogEstimate paired = median(std::move(logs));
-    paired.value = log_median(of_a).value - log_median(of_b).value;
+    paired.value = log_median(known(of_a)).value - log_median(known(of_b)).value;
     if (n >= 2 && n < 6 && a.time_noise_dof > 0) {
         const double of_a_median =
             n > 2 ? std::sqrt(0.5 * std::numbers::pi) : 1;  // against a mean, at most
@@ -56,7 +64,7 @@ PointFigures point_figures(const Moments& moments, int samples_per_observation, 
 
 void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figures& figures)
 {
-    report.timed_rounds = static_cast<int>(s.times.size());
+    report.timed_rounds = static_cast<int>(known(figures.seconds_at).size());
     const TimeIntervals times = intervals_of(s.times);
     report.seconds_per_sample = times.per_sample;
     report.seconds_per_point = times.per_point;
@@ -64,7 +72,7 @@ void add_times(StrategyReport& report, const StrategyMeasurements& s, const Figu
     for (const auto& [stage, seconds] : s.stage_seconds)
         report.stage_seconds[stage] = seconds / samples;
     report.rays_per_sample = static_cast<double>(s.rays) / samples;
-    const LogEstimate seconds = log_median(figures.seconds_at);
+    const LogEstimate seconds = log_median(known(figures.seconds_at));
     if (figures.exact) {
         report.efficiency =
             std::isnan(seconds.value) ? unknown_interval() : Interval{infinity, infinity, infinity};
@@ -80,6 +88,7 @@ TimeIntervals intervals_of(std::span<const TimeObservation> times)
 {
     std::vector<double> per_point, per_sample;
     for (const TimeObservation& time : times) {
+        if (!time.is_known()) continue;
         per_point.push_back(time.seconds_per_point);
         per_sample.push_back(time.seconds_per_sample);
     }
@@ -109,6 +118,7 @@ Figures figures_of(const StrategyMeasurements& s, double at)
     if (f.samples_to_1_percent > least_samples && !s.times.empty()) {
         double sampling = 0, all = 0;
         for (std::size_t i = 0; i < s.times.size(); ++i) {
+            if (!s.times[i].is_known()) continue;
             sampling += f.samples_to_1_percent * s.times[i].seconds_per_sample;
             all += f.seconds_to_1_percent[i];
         }
@@ -120,36 +130,23 @@ Figures figures_of(const StrategyMeasurements& s, double at)
 void remove_drift(std::span<Figures> figures)
 {
     std::vector<Figures*> timed;
-    std::size_t rounds = std::numeric_limits<std::size_t>::max();
+    std::vector<std::vector<double>> logs;
     for (Figures& f : figures) {
-        const bool is_positive =
-            std::all_of(f.seconds_at.begin(), f.seconds_at.end(), [](double s) { return s > 0; });
-        if (f.seconds_at.size() < 2 || !is_positive) continue;
+        const std::vector<double> seconds = known(f.seconds_at);
+        if (seconds.size() < 2 || std::ranges::any_of(seconds, [](double s) { return s <= 0; }))
+            continue;
         timed.push_back(&f);
-        rounds = std::min(rounds, f.seconds_at.size());
+        logs.emplace_back();
+        for (const double s : f.seconds_at) logs.back().push_back(std::log(s));
     }
     if (timed.size() < 2) return;
-    const double strategies = static_cast<double>(timed.size()), n = static_cast<double>(rounds);
-    std::vector<double> of_round(rounds, 0.0), of_strategy;
-    for (const Figures* f : timed) {
-        double sum = 0;
-        for (std::size_t i = 0; i < rounds; ++i) {
-            of_round[i] += std::log(f->seconds_at[i]) / strategies;
-            sum += std::log(f->seconds_at[i]) / n;
-        }
-        of_strategy.push_back(sum);
-    }
-    const double mean = mean_and_error(of_round).mean, dof = (strategies - 1) * (n - 1);
-    double squares = 0;
-    for (std::size_t s = 0; s < timed.size(); ++s)
-        for (std::size_t i = 0; i < rounds; ++i)
-            squares += std::pow(
-                std::log(timed[s]->seconds_at[i]) - of_round[i] - of_strategy[s] + mean, 2);
+    const TwoWayFit fit = fit_two_way(logs);
+    if (fit.dof < 1) return;
     for (Figures* f : timed) {
-        f->time_noise = std::sqrt(squares / dof);
-        f->time_noise_dof = dof;
-        for (std::size_t i = 0; i < rounds; ++i) {
-            const double slower = std::exp(of_round[i] - mean);
+        f->time_noise = fit.noise;
+        f->time_noise_dof = fit.dof;
+        for (std::size_t i = 0; i < f->seconds_at.size(); ++i) {
+            const double slower = std::exp(fit.columns[i]);
             f->seconds_at[i] /= slower;
             f->seconds_to_1_percent[i] /= slower;
         }
@@ -217,12 +214,11 @@ StrategyReport report_of(const StrategyMeasurements& s, const Figures& figures, 
     report.rare_share = figures.exact ? 0 : s.pooled.rare_share;
     report.effective_samples = s.pooled.participation.number();
     add_times(report, s, figures);
-    LogEstimate to_1_percent =
-        product(log_contrast(figures.relative_variances, figures.sampling_share, {}, 0),
-                log_median(figures.seconds_to_1_percent));
+    const LogEstimate cpu_seconds = log_median(known(figures.seconds_to_1_percent));
+    LogEstimate to_1_percent = product(
+        log_contrast(figures.relative_variances, figures.sampling_share, {}, 0), cpu_seconds);
     report.seconds_to_1_percent =
-        widened(interval_about(std::exp(log_median(figures.seconds_to_1_percent).value) *
-                                   static_cast<double>(points) / threads,
+        widened(interval_about(std::exp(cpu_seconds.value) * static_cast<double>(points) / threads,
                                to_1_percent),
                 figures.relative_doubt * figures.sampling_share);
     for (const Moments& probe : s.probes)

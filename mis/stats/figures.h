@@ -20,9 +20,9 @@ struct Figures {
     std::vector<double> relative_variances;  ///< per replicate
     double relative_doubt = 0;  ///< half width, of its logarithm: what the estimated μ may do to it
     RegionSums variances;       ///< per replicate and region
-    std::vector<double>
-        seconds_at;  ///< per observation: seconds per sample, with its part of a point at n samples
-    std::vector<double> seconds_to_1_percent;  ///< per observation: CPU seconds per point
+    std::vector<double> seconds_at;  ///< per round: seconds per sample, with its part of a point at
+                                     ///< n samples; NaN of one that it took no part in
+    std::vector<double> seconds_to_1_percent;  ///< per round: CPU seconds per point, or NaN
     double samples_to_1_percent = 0;           ///< per point, at least 1
     double time_noise = 0,
            time_noise_dof = 0;  ///< standard deviation of log(an observation): remove_drift()
@@ -39,9 +39,9 @@ TimeIntervals intervals_of(std::span<const TimeObservation> times);
 Figures figures_of(const StrategyMeasurements& strategy, double at);
 
 /// Takes out of the observed times what slowed all strategies of a round alike, and finds the noise
-/// that is left, from all strategies together (two-way analysis of variance of log(seconds)): a few
-/// rounds tell little of one strategy's noise, but much of all strategies'. Does nothing for fewer
-/// than two rounds or strategies.
+/// that is left, from all strategies together (two_way.h, of log(seconds)): a few rounds tell
+/// little of one strategy's noise, but much of all strategies'. Does nothing for fewer than two
+/// rounds or strategies.
 void remove_drift(std::span<Figures> figures);
 
 /// Logarithm of a's variance over b's, over the same replicates. ∓∞ where one is exact, 0 where

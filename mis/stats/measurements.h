@@ -5,6 +5,7 @@
 #include "mis/sampling/sample_name.h"
 #include "mis/strategy/strategy.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -58,11 +59,12 @@ struct PooledFigures {
 
 /// One strategy's cost, once: CPU seconds of one replicate *over all shading points* (so that every
 /// observation is of the same work), divided by its samples, and by its points. Observation i of
-/// every strategy is of the same round.
+/// every strategy is of the same round; NaN where it took no part in that.
 struct TimeObservation {
     double seconds_per_sample = 0;
     double seconds_per_point = 0;  ///< what is prepared once per point
 
+    bool is_known() const { return !std::isnan(seconds_per_sample); }
     /// Of one point with so many samples (docs/theory.md (32)).
     double seconds_for(double samples) const
     {

@@ -1,5 +1,6 @@
 #include "mis/study/strategy_run.h"
 
+#include "mis/math/limits.h"
 #include "mis/stats/pool.h"
 
 #include <algorithm>
@@ -79,9 +80,11 @@ bool StrategyRun::sample_round(const Round& round, std::span<const double> weigh
             sums.degrees += n - 1;
         }
     }
-    if (round.is_timed) times_.push_back(observed(costs));
+    times_.push_back(observed(costs));
     return true;
 }
+
+void StrategyRun::miss_round() { times_.push_back({nan, nan}); }
 
 bool StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces,
                                const AnyExecutor& executor, const StopToken& stop)

@@ -29,7 +29,6 @@ public:
     struct Round {
         const Allocation& allocation;
         int first, end, replicates;
-        bool is_timed;  ///< the time is an observation
     };
 
     /// The next samples of every point. weights: 1/(μ² + ε²) of every point. Every observation of
@@ -38,6 +37,9 @@ public:
     bool sample_round(const Round& round, std::span<const double> weights,
                       WorkspacePool<float>& workspaces, const AnyExecutor& executor,
                       const StopToken& stop = {});
+
+    /// It takes no part in a round: there is no time of it.
+    void miss_round();
 
     /// The next observations of every point, `count` of them, outside the replicates: they count in
     /// the points' moments alone. False where it was

@@ -11,7 +11,7 @@ namespace mis {
 namespace {
 
 // Named; the rest is a number. Those that are undecided do not say which strategy to use.
-constexpr std::size_t most_pairs = 5, most_undecided = 2;
+constexpr std::size_t most_pairs = 3, most_undecided = 2;
 
 void say_exact(Sentences& sentences, const SceneView& view)
 {

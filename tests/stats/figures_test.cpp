@@ -64,6 +64,54 @@ TEST(Ratios, ArePairedSoThatADriftingClockTouchesAllAlike)
     EXPECT_GT(alone.high / alone.low, 1.3);  // the twin
 }
 
+/// a and b take part in all rounds, c in the first four alone, as where it rests; the machine is
+/// slower then.
+std::vector<Figures> with_one_that_rests(std::uint64_t seed)
+{
+    Random bits(seed);
+    std::normal_distribution<double> noise(0, 0.02), drift(0, 0.5);
+    std::vector<Figures> figures(3);
+    for (int round = 0; round < 100; ++round) {
+        const double slow = drift(bits) + (round < 4 ? 1 : 0);
+        for (std::size_t s = 0; s < 3; ++s) {
+            const double seconds = 0.1 * static_cast<double>(s) + slow + noise(bits);
+            figures[s].exact = true;
+            figures[s].seconds_at.push_back(s == 2 && round >= 4 ? nan : std::exp(seconds));
+            figures[s].seconds_to_1_percent.push_back(figures[s].seconds_at.back());
+        }
+    }
+    return figures;
+}
+
+TEST(Ratios, TakeTheRoundsThatAStrategyTookPartIn)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        std::vector<Figures> figures = with_one_that_rests(seed);
+        remove_drift(figures);
+        EXPECT_EQ(figures[0].time_noise_dof, 204 - 3 - 100 + 1);
+        EXPECT_NEAR(figures[0].time_noise, 0.02, 0.006);
+        const LogEstimate awake = log_cost_ratio(figures[1], figures[0]),
+                          rested = log_cost_ratio(figures[2], figures[0]);
+        EXPECT_NEAR(awake.value, 0.1, 0.02);
+        EXPECT_LT(awake.se, 0.006);  // of 100 rounds
+        EXPECT_NEAR(rested.value, 0.2, 0.06);
+        EXPECT_GT(rested.se, 0.01);  // of four
+        EXPECT_LT(rested.se, 0.03);
+    }
+}
+
+TEST(Reports, CountTheRoundsThatAStrategyTookPartIn)
+{
+    StrategyMeasurements s = simulate("a", uniform_samples(0.1));
+    const StrategyReport all = report_of(s, of(s), 64, 1);
+    s.times.insert(s.times.begin() + 3, 5, {nan, nan});
+    const StrategyReport with_gaps = report_of(s, of(s), 64, 1);
+    EXPECT_EQ(with_gaps.timed_rounds, 16);
+    EXPECT_EQ(with_gaps.seconds_per_sample.high, all.seconds_per_sample.high);
+    EXPECT_EQ(with_gaps.seconds_to_1_percent.high, all.seconds_to_1_percent.high);
+    EXPECT_EQ(with_gaps.efficiency.low, all.efficiency.low);
+}
+
 // 2000 runs of 8 equally fast strategies, 3 rounds each, on a machine whose speed changes by half
 // from round to round. At 5 % the first two are called apart in at most that many (fewer, as a
 // median is judged a little too strictly); the bound is passed by chance once in 3 million.

@@ -5,6 +5,7 @@
 #include "mis/strategy/names.h"
 #include "mis/study/affordable.h"
 #include "mis/study/explain.h"
+#include "mis/study/rounds.h"
 #include "mis/study/study.h"
 #include "mis/study/study_audit.h"
 #include "tests/support/scenes.h"
@@ -144,7 +145,7 @@ TEST(Stopping, ARoundThatWasStoppedDoesNotCount)
     StoppableGround ground(stacked_scene(20));
     StrategyRun run(ground.lit, ground.points, parse_strategy("uniform/power"), 1);
     const auto round = [&](const StopToken& stop) {
-        return run.sample_round({{1000}, 0, 2, 2, true}, {}, ground.workspaces, one_thread, stop);
+        return run.sample_round({{1000}, 0, 2, 2}, {}, ground.workspaces, one_thread, stop);
     };
     Asks some{.most = 3};
     EXPECT_FALSE(round(some.token()));
@@ -156,6 +157,31 @@ TEST(Stopping, ARoundThatWasStoppedDoesNotCount)
     EXPECT_FALSE(round(some.token()));
     EXPECT_EQ(run.samples(), 2000U);
     EXPECT_GE(run.results()[0].luminance.count, 2000U);
+}
+
+TEST(Rounds, AreTimedForThoseThatDoNotRest)
+{
+    StoppableGround stoppable(stacked_scene(3));
+    std::vector<std::unique_ptr<StrategyRun>> runs;
+    for (const char* name : {"uniform/power", "power/light"})
+        runs.push_back(std::make_unique<StrategyRun>(stoppable.lit, stoppable.points,
+                                                     parse_strategy(name), 1));
+    const StudyGround ground = stoppable.until({});
+    StudyRounds rounds(ground, runs, [](std::size_t, double) {});
+    RoundOptions how{
+        {}, std::vector(stoppable.points.shading.tiles.size(), 1.0), {false, false}, false};
+    const SamplePlan plan{.replicates = 2};
+    rounds.take(2, plan, how);
+    how.rests = {false, true};
+    rounds.take(2, plan, how);
+    const std::vector<double> ones(stoppable.points.shading.points.size(), 1.0);
+    const RelativeScale scale{0, ones, ones, {}};
+    const auto times_of = [&](int s) { return runs[s]->measurements(scale).times; };
+    ASSERT_EQ(times_of(0).size(), 2U);
+    ASSERT_EQ(times_of(1).size(), 2U);
+    EXPECT_TRUE(times_of(0)[0].is_known() && times_of(0)[1].is_known());
+    EXPECT_TRUE(times_of(1)[0].is_known());
+    EXPECT_FALSE(times_of(1)[1].is_known());
 }
 
 TEST(Stopping, AStudyReportsWhatItHasAndThatItIsPartial)
