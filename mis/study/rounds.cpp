@@ -37,14 +37,15 @@ void StudyRounds::take(int chunk, const SamplePlan& plan, const RoundOptions& op
 void StudyRounds::take_round(const Allocation& allocation, int first, int end, int replicates,
                              const RoundOptions& options)
 {
+    const bool is_timed = is_round_timed(count_);
     const std::vector<std::size_t> order = round_order(runs_.size(), ground_.seed, count_++);
     std::size_t done = 0;
     for (const std::size_t s : order) {
         if (ground_.is_stopped()) return;
-        if (runs_[s] && options.rests[s]) runs_[s]->miss_round();
-        else if (runs_[s])
-            runs_[s]->sample_round({allocation, first, end, replicates}, options.weights,
+        if (runs_[s] && !options.rests[s])
+            runs_[s]->sample_round({allocation, first, end, replicates, is_timed}, options.weights,
                                    ground_.workspaces, ground_.executor, ground_.stop);
+        else if (runs_[s] && is_timed) runs_[s]->miss_round();
         after_turn_(s, static_cast<double>(++done) / static_cast<double>(order.size()));
     }
 }

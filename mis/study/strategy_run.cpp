@@ -80,7 +80,7 @@ bool StrategyRun::sample_round(const Round& round, std::span<const double> weigh
             sums.degrees += n - 1;
         }
     }
-    times_.push_back(observed(costs));
+    if (round.is_timed) times_.push_back(observed(costs));
     return true;
 }
 

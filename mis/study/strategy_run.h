@@ -29,6 +29,7 @@ public:
     struct Round {
         const Allocation& allocation;
         int first, end, replicates;
+        bool is_timed;  ///< the time is an observation
     };
 
     /// The next samples of every point. weights: 1/(μ² + ε²) of every point. Every observation of
@@ -38,7 +39,7 @@ public:
                       WorkspacePool<float>& workspaces, const AnyExecutor& executor,
                       const StopToken& stop = {});
 
-    /// It takes no part in a round: there is no time of it.
+    /// It takes no part in a round whose time is an observation.
     void miss_round();
 
     /// The next observations of every point, `count` of them, outside the replicates: they count in

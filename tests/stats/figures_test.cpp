@@ -1,5 +1,6 @@
 #include "mis/stats/figures.h"
 
+#include "mis/math/limits.h"
 #include "tests/support/simulated.h"
 
 #include <gtest/gtest.h>

@@ -145,7 +145,7 @@ TEST(Stopping, ARoundThatWasStoppedDoesNotCount)
     StoppableGround ground(stacked_scene(20));
     StrategyRun run(ground.lit, ground.points, parse_strategy("uniform/power"), 1);
     const auto round = [&](const StopToken& stop) {
-        return run.sample_round({{1000}, 0, 2, 2}, {}, ground.workspaces, one_thread, stop);
+        return run.sample_round({{1000}, 0, 2, 2, true}, {}, ground.workspaces, one_thread, stop);
     };
     Asks some{.most = 3};
     EXPECT_FALSE(round(some.token()));

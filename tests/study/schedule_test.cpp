@@ -32,6 +32,18 @@ TEST(Parts, AreMoreWhereRoundsAreFewAndDivideTheReplicates)
         EXPECT_EQ(SamplePlan{}.replicates % parts_for(1, seconds), 0) << seconds;
 }
 
+TEST(Schedule, TimesEachOfTheFirstRoundsThenAsManyInEachDoubling)
+{
+    std::uint32_t timed = 0;
+    for (std::uint32_t round = 0; round < 1024; ++round) timed += is_round_timed(round);
+    EXPECT_EQ(timed, 1024U);
+    for (std::uint32_t from = 1024; from < 1U << 20; from *= 2) {
+        timed = 0;
+        for (std::uint32_t round = from; round < 2 * from; ++round) timed += is_round_timed(round);
+        EXPECT_EQ(timed, 512U) << from;
+    }
+}
+
 /// A verdict stands at a look that may spend almost nothing; but not for the one that is no longer
 /// the better.
 TEST(Rank, LetsEarlierVerdictsStand)
