@@ -25,7 +25,7 @@ template <class Visitor, Either<EffectPlan> S> void describe(Visitor& v, S& effe
 
 struct SceneReport : SceneFacts {
     int replicates = 0;
-    double epsilon = 0;  ///< of the relative variance
+    double epsilon = 0;    ///< of the relative variance
     bool decided = false;  ///< the leader is at most `most_behind` behind every other
     std::string leader;    ///< the strategy to use; empty where none is ranked
     /// The same among those that draw one light per sample, or none.

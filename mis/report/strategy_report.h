@@ -64,8 +64,9 @@ struct StrategyReport {
     bool exact = false;                         ///< zero variance, proved
     int rank = 0, rank_low = 0, rank_high = 0;  ///< by variance; 0 where not ranked
     int rank_by_efficiency = 0, rank_by_efficiency_low = 0, rank_by_efficiency_high = 0;
-    std::vector<std::string> tied_with;           ///< names, by variance
-    /// By time to 1 %, or without times by variance (stats/decision.h); for all strategies together.
+    std::vector<std::string> tied_with;  ///< names, by variance
+    /// By time to 1 %, or without times by variance (stats/decision.h); for all strategies
+    /// together.
     bool may_be_best = false;
     /// The share by which it may be behind the best at most; NaN where nothing is known.
     double behind_at_most = std::numeric_limits<double>::quiet_NaN();
