@@ -118,7 +118,7 @@ void write_outputs(const CompareOptions& options, const Report& report,
 std::string no_time_message(const std::string& file, const CompareOptions& options)
 {
     return fmt::format(
-        "--time: found {}; in so many seconds not even the shading points of {} were found\n    "
+        "--time: found {} s; in that time not even the shading points of {} were found\n    "
         "Give more time, or a lower --resolution.",
         options.stop.seconds.value_or(StudyOptions().default_seconds), file);
 }
@@ -138,8 +138,8 @@ void add_scene(const std::string& file, const CompareOptions& options,
     const ReadyScene ready(file, options.run);
     const StrategySelection selection = select_strategies(request, traits_of(ready.scene));
     const std::vector<Strategy>& strategies = selection.strategies;
-    if (!options.run.quiet) tell_left_out(selection, told);
     check_memory(ready.scene, strategies.size(), !options.out.empty());
+    if (!options.run.quiet) tell_left_out(selection, told);
     report.threads = ready.executor.threads;
     if (options.stop.spp)
         ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *

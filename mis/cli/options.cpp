@@ -66,9 +66,8 @@ void check(const StopOptions& options, std::int64_t least_spp)
             fmt::format("--spp: found {}; {} to {} samples per shading point are allowed",
                         *options.spp, least_spp, most_spp));
     if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 1e7))
-        throw UsageError(
-            fmt::format("--time: found {}; a time is greater than 0 and at most 1e7 seconds",
-                        *options.seconds));
+        throw UsageError(fmt::format(
+            "--time: found {} s; a time is greater than 0 and at most 1e7 s", *options.seconds));
     if (options.error && !(*options.error > 0 && *options.error < 10))
         throw UsageError(fmt::format(
             "--error: found {}; a relative error is greater than 0 and below 10", *options.error));
@@ -171,10 +170,6 @@ std::string turned_normals_message(std::size_t count)
 
 AnyExecutor make_executor(const RunOptions& options)
 {
-    constexpr int most = 1024;
-    if (options.threads < 0 || options.threads > most)
-        throw UsageError(
-            fmt::format("--threads: found {}; 0 to {} are allowed", options.threads, most));
     return any_executor(TbbExecutor(options.threads));
 }
 

@@ -1,5 +1,4 @@
-#include "tests/io/temporary_folder.h"
-#include "tests/support/places.h"
+#include "tests/cli/program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,33 +15,6 @@
 namespace mis {
 namespace {
 
-struct Outcome {
-    int exit;
-    std::string out, error;
-};
-
-std::string text_of(const std::string& file)
-{
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Runs the program with these words, as a shell splits them.
-Outcome mis_with(const std::string& words)
-{
-    const TemporaryFolder folder;
-    const std::string out = (folder / "out").string(), error = (folder / "error").string();
-    const int status = std::system(
-        ("'" + program_file().string() + "' " + words + " >'" + out + "' 2>'" + error + "'")
-            .c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(error)};
-}
-
-std::string scene(const std::string& name)
-{
-    return (source_dir() / "scenes" / (name + ".json")).string();
-}
-
 struct BadLine {
     const char* words;
     const char* message;  ///< that standard error must hold
@@ -54,7 +26,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
     const std::array lines{
         BadLine{"frob", "found command \"frob\""},
         BadLine{"compar", "Did you mean \"compare\""},
-        BadLine{"compare", "scenes is required"},
+        BadLine{"compare", "mis: compare: found no SCENE; it needs"},
         BadLine{"compare /no/such.json", "no such file"},
         BadLine{"compare .", "found a directory"},
         BadLine{"replay VEACH --strategy brdf --point 20000 --sample -1", "found \"-1\""},
@@ -76,7 +48,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare VEACH --error 0", "--error: found 0"},
         BadLine{"compare VEACH --at 0", "--at: found 0"},
         BadLine{"compare VEACH --seed -1", "found \"-1\""},
-        BadLine{"compare VEACH --threads -3", "--threads: found -3"},
+        BadLine{"compare VEACH --threads -3", "--threads: found \"-3\""},
         BadLine{"compare VEACH --resolution 0x4", "--resolution: found \"0x4\""},
         BadLine{"compare VEACH --resolution 99999x4", "--resolution: found"},
         BadLine{"compare VEACH --effects some", "--effects: found \"some\""},
@@ -106,7 +78,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare VEACH --spp 8 --json /no/such/folder/x.json", "there is no folder"},
         BadLine{"compare VEACH --spp 8 --out /no/such/folder/x", "there is no folder"},
         BadLine{"compare VEACH --resolution 16384x16384", "GB"},
-        BadLine{"render VEACH", "--out is required"},
+        BadLine{"render VEACH", "mis: render: found no --out; it needs --out FILE.exr"},
         BadLine{"render VEACH --out x.png", "ends in .exr"},
         BadLine{"render VEACH --out ''", "ends in .exr"},
         BadLine{"compare VEACH --strategy ''", "--strategy: found \"\""},
@@ -119,7 +91,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"render VEACH --strategy exact --out x.exr", "have a closed form, and all must"},
         BadLine{"render VEACH --strategy exact --spp 4 --out x.exr", "takes no samples"},
         BadLine{"render VEACH --strategy exact --effects all --out x.exr", "--effects auto"},
-        BadLine{"cost", "scene is required"},
+        BadLine{"cost", "mis: cost: found no SCENE"},
         BadLine{"cost VEACH --strategy powr/power", "Did you mean \"power\""},
         BadLine{"cost VEACH --precision half", "--precision: found \"half\""},
         BadLine{"cost VEACH --precision float,", "names separated by commas"},
@@ -128,7 +100,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"cost VEACH --spp 8 --time 2", "found more than one"},
         BadLine{"cost VEACH --time 0", "--time: found 0"},
         BadLine{"cost VEACH --error 0.1", "--error"},
-        BadLine{"cost VEACH VEACH", "not expected"},
+        BadLine{"cost VEACH b", "found \"b\" after"},
         BadLine{"cost VEACH --json - --csv -", "standard output takes one"},
         BadLine{"integrate --pdf cosin", "Did you mean \"cosine\""},
         BadLine{"integrate --pdf hemi", "Did you mean \"hemisphere\""},
@@ -142,6 +114,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         EXPECT_EQ(outcome.exit, 2) << line.words << "\n" << outcome.error;
         EXPECT_NE(outcome.error.find(line.message), std::string::npos) << line.words << "\n"
                                                                        << outcome.error;
+        EXPECT_EQ(outcome.error.rfind("mis: ", 0), 0U) << line.words << "\n" << outcome.error;
         EXPECT_EQ(outcome.out, "") << line.words;
     }
 }

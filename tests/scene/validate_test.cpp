@@ -328,6 +328,16 @@ TEST(NearestName, OffersWhatWasProbablyMeantAndNothingElse)
     EXPECT_EQ(nearest_name("l", material_type_names), "");
     EXPECT_EQ(nearest_name("mirror", material_type_names), "");
     EXPECT_EQ(nearest_name("", material_type_names), "");
+
+    constexpr std::array<std::string_view, 5> options{"--help", "--quiet", "--out", "--sampler",
+                                                      "-n"};
+    EXPECT_EQ(nearest_name("--seed", options), "") << "two of four letters and the dashes";
+    EXPECT_EQ(nearest_name("--sobol", options), "");
+    EXPECT_EQ(nearest_name("--sampl", options), "--sampler");
+    EXPECT_EQ(nearest_name("--hlep", options), "--help");
+    EXPECT_EQ(nearest_name("quite", options), "--quiet");
+    EXPECT_EQ(nearest_name("--output", options), "--out") << "it begins so";
+    EXPECT_EQ(nearest_name("--", options), "");
 }
 
 TEST(Text, WritesTheShortestNumberThatReadsBack)
