@@ -1,6 +1,7 @@
 #include "mis/cli/command_line.h"
 
 #include "mis/cli/commands.h"
+#include "mis/cli/terminal.h"
 #include "mis/cli/usage_check.h"
 #include "mis/cli/values.h"
 #include "mis/sampling/number_source.h"
@@ -77,6 +78,12 @@ void add_run_options(CLI::App& command, RunOptions& options, bool draws_samples 
             ->type_name("NAME")
             ->capture_default_str();
     command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
+}
+
+void add_verbose(CLI::App& command, RunOptions& options)
+{
+    command.add_flag("--verbose", options.verbose,
+                     "every trouble with its reason, not one line for each kind");
 }
 
 void add_json_option(CLI::App& command, OutputOptions& options)
@@ -163,6 +170,7 @@ void add_compare(CLI::App& app, CompareOptions& options)
     c.add_flag("--trap", options.trap,
                "stop at the first sample that is no number, and say how to replay it");
     add_run_options(c, options.run);
+    add_verbose(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
         return "Without a list: every classic policy x light, balance, power, and brdf; until "
@@ -202,6 +210,7 @@ void add_cost(CLI::App& app, CostCommandOptions& options)
     add_samples(c, options.stop, "samples per shading point of the last doubling");
     add_time(c, options.stop, " (30)");
     add_run_options(c, options.run);
+    add_verbose(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
         return "Without a list: every classic policy with the power heuristic, and brdf; the "
@@ -341,14 +350,19 @@ std::vector<std::string> words_of(int argc, char** argv)
     return {words[1], "--help"};
 }
 
+void print_help(const std::string& text)
+{
+    fmt::print("{}", fitted(text, look_of_output().columns));
+}
+
 /// Prints what is asked for instead of a run: help, or the version.
 bool is_answered(CLI::App& app, const std::vector<std::string>& words)
 {
     if (words[0] == "--version") return fmt::print("mis {}\n", MIS_VERSION), true;
-    if (words[0] == "--help" || words[0] == "-h") return fmt::print("{}", app.help()), true;
+    if (words[0] == "--help" || words[0] == "-h") return print_help(app.help()), true;
     const CLI::App& command = command_named(app, words[0]);
     if (!asks_for_help(words)) return false;
-    return fmt::print("{}", command.help("mis")), true;
+    return print_help(command.help("mis")), true;
 }
 
 }  // namespace

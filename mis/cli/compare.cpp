@@ -7,6 +7,7 @@
 #include "mis/cli/report_folder.h"
 #include "mis/cli/run_head.h"
 #include "mis/cli/strategy_list.h"
+#include "mis/cli/terminal.h"
 #include "mis/io/report_csv.h"
 #include "mis/io/report_json.h"
 #include "mis/io/report_peek.h"
@@ -68,7 +69,8 @@ StudyOptions study_options(const CompareOptions& options, const Scene& scene, Pr
         for (const StrategyReport& s : so_far.strategies)
             if (s.rank_by_efficiency == 1) best = &s;
         if (best != nullptr) text += ", ahead: " + name_of(best->strategy);
-        progress.show(text, done, so_far.strategies.empty() ? "" : ranking_text(so_far));
+        progress.show(text, done,
+                      so_far.strategies.empty() ? "" : ranking_text(so_far, look_of_errors()));
     };
     return study;
 }
@@ -160,7 +162,7 @@ void add_scene(const std::string& file, const CompareOptions& options,
     report.partial = report.partial || study.report.partial;
     if (options.output.json == "-" || options.output.csv == "-") return;
     fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
-               scene_text(report.scenes.back(), report));
+               scene_text(report.scenes.back(), report, look_of_output(options.run.verbose)));
     std::fflush(stdout);
 }
 
@@ -202,7 +204,10 @@ int run_compare(const CompareOptions& options)
         if (interrupt_flag()) break;
     }
     report.overall = rank_overall(report.scenes);
-    if (shows_table) fmt::print("{}", overall_text(report));
+    if (shows_table) {
+        const std::string overall = overall_text(report, look_of_output(options.run.verbose));
+        fmt::print("{}{}", overall.empty() ? "" : "\n", overall);
+    }
     write_outputs(options, report, maps);
     return report.partial ? interrupted : ok;
 }

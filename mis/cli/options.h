@@ -27,7 +27,7 @@ struct UsageError : std::runtime_error {
 struct RunOptions {
     int threads = 0;  ///< 0: as many as the machine has
     std::uint64_t seed = 1;
-    bool quiet = false;
+    bool quiet = false, verbose = false;
     std::string resolution;        ///< "WxH", or empty for the scene's
     std::string effects = "auto";  ///< auto, all, or NAME=off
     std::string sampler = "independent";

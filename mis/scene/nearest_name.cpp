@@ -38,7 +38,7 @@ std::string_view without_dashes(std::string_view name)
 /// How many letters may be wrong: a third of them.
 std::size_t most_wrong(std::string_view typed)
 {
-    return std::max<std::size_t>(1, typed.size() / 3);
+    return std::max<std::size_t>(1, (typed.size() + 1) / 3);
 }
 
 /// Is one the beginning of the other, and long enough to tell?

@@ -191,14 +191,21 @@ void say_verdict(Sentences& sentences, const SceneView& view, int threads, doubl
 
 }  // namespace
 
-std::vector<std::string> sentences_of(const SceneReport& scene, int threads, double margin)
+SceneWords words_of(const SceneReport& scene, int threads, double margin)
 {
     const SceneView view(scene);
-    Sentences sentences;
-    say_verdict(sentences, view, threads, margin);
-    say_comparisons(sentences, view, margin);
-    say_troubles(sentences, view);
-    return std::move(sentences).all();
+    Sentences answer, details;
+    say_verdict(answer, view, threads, margin);
+    say_comparisons(details, view, margin);
+    say_troubles(details, view);
+    return {std::move(answer).all(), std::move(details).all()};
+}
+
+std::vector<std::string> sentences_of(const SceneReport& scene, int threads, double margin)
+{
+    SceneWords words = words_of(scene, threads, margin);
+    words.answer.insert(words.answer.end(), words.details.begin(), words.details.end());
+    return words.answer;
 }
 
 std::vector<std::string> overall_sentences_of(const Report& report)

@@ -13,6 +13,12 @@ namespace mis {
 /// threads, margin: of the report.
 std::vector<std::string> sentences_of(const SceneReport& scene, int threads, double margin);
 
+/// The same in two parts: the answer, and what stands behind it.
+struct SceneWords {
+    std::vector<std::string> answer, details;
+};
+SceneWords words_of(const SceneReport& scene, int threads, double margin);
+
 /// The same over all scenes; empty unless there are several.
 std::vector<std::string> overall_sentences_of(const Report& report);
 

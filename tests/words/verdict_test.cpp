@@ -176,7 +176,7 @@ TEST(Sentences, GiveTheReasonOfWhatIsExcluded)
     expect_said(text,
                 "dear/power was not run: one sample takes 10000 draws (it would take about 10 min "
                 "of CPU time).");
-    expect_said(text, "broken/power gave 3 samples that are no numbers");
+    expect_said(text, "broken/power gave 3 samples that are NaN or infinite");
 }
 
 TEST(Sentences, SayWhatIsExact)
