@@ -6,6 +6,7 @@
 #include "mis/io/text_file.h"
 #include "mis/run/tbb.h"
 #include "mis/scene/nearest_name.h"
+#include "mis/scene/text.h"
 #include "mis/scene/validate.h"
 
 #include <fmt/format.h>
@@ -164,8 +165,9 @@ std::string no_points_message(const Scene& scene)
 
 std::string turned_normals_message(std::size_t count)
 {
-    return fmt::format("{} shading normals lean away from the viewer, and are turned to him\n",
-                       count);
+    return fmt::format("{} away from the viewer, and {} turned to him\n",
+                       many(count, "shading normal") + (count == 1 ? " leans" : " lean"),
+                       count == 1 ? "is" : "are");
 }
 
 AnyExecutor make_executor(const RunOptions& options)

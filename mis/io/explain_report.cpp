@@ -38,6 +38,11 @@ std::string state(const EffectPlan& effect)
                             : "on";
 }
 
+std::string sees(std::size_t points)
+{
+    return fmt::format("{} {}", points, points == 1 ? "sees" : "see");
+}
+
 /// How many points there are, why some are dark, and whose normals lean away.
 std::string points_text(const Explanation& found)
 {
@@ -50,12 +55,14 @@ std::string points_text(const Explanation& found)
     give(found.counts.seen_from_below, "seen from below");
     give(found.counts.inside_light, "inside a light");
     give(found.counts.facing_no_light, "facing none");
-    if (!reasons.empty()) text += fmt::format("; {} see no light: {}", found.dark_points, reasons);
+    if (!reasons.empty())
+        text += fmt::format("; {} no light: {}", sees(found.dark_points), reasons);
     if (found.counts.turned_normals > 0)
         text += fmt::format(
-            "; of {} the shading normal leans away from the viewer and is turned to him, {} of "
-            "these see no light",
-            found.counts.turned_normals, found.counts.turned_and_dark);
+            "; of {} the shading normal leans away from the viewer and is turned to him, of these "
+            "{} no "
+            "light",
+            found.counts.turned_normals, sees(found.counts.turned_and_dark));
     return text;
 }
 
@@ -70,15 +77,13 @@ std::string explanation_text(const Explanation& found, const TextLook& look)
     lights += fmt::format("; radius {:.4g} to {:.4g}, power {:.4g} to {:.4g} W (luminance)",
                           found.radius.low, found.radius.high, found.power.low, found.power.high);
     text += labelled("lights", lights);
-    text +=
-        labelled("surfaces",
-                 many(found.quads, "quad") + ", " + many(found.spheres, "sphere") + ", " +
-                     fmt::format("{} {} of ", found.meshes, found.meshes == 1 ? "mesh" : "meshes") +
-                     many(found.triangles, "triangle"));
+    text += labelled("surfaces", many(found.quads, "quad") + ", " + many(found.spheres, "sphere") +
+                                     ", " + fmt::format("{} of ", many(found.meshes, "mesh")) +
+                                     many(found.triangles, "triangle"));
     if (found.width > 0)
-        text +=
-            labelled("picture", fmt::format("{} x {} pixels, of which {} show no surface",
-                                            found.width, found.height, found.background_pixels));
+        text += labelled("picture", fmt::format("{} x {} pixels, of which {} {} no surface",
+                                                found.width, found.height, found.background_pixels,
+                                                found.background_pixels == 1 ? "shows" : "show"));
     if (found.probes > 0) text += labelled("probes", std::to_string(found.probes));
     text += labelled("shading points", points_text(found));
     for (const MaterialUse& material : found.materials)

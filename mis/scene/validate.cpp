@@ -325,7 +325,7 @@ MaybeProblem check_triangles(const Mesh& mesh, const StopToken& stop)
             if (last < mesh.positions.size()) return {};
             return Problem{
                 "/file", "vertex " + to_text(std::size_t{last}) + " in triangle " + to_text(i),
-                "the mesh has " + to_text(mesh.positions.size()) + " vertices, counted from 0",
+                "the mesh has " + many(mesh.positions.size(), "vertex") + ", counted from 0",
                 "Mend the mesh."};
         });
 }
@@ -344,10 +344,10 @@ MaybeProblem check_normals(const Mesh& mesh, const StopToken& stop)
 {
     constexpr float tolerance = 1e-4f;
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())
-        return Problem{"/file",
-                       to_text(mesh.normals.size()) + " normals for " +
-                           to_text(mesh.positions.size()) + " vertices",
-                       "a mesh has one normal per vertex, or none at all", "Mend the mesh."};
+        return Problem{
+            "/file",
+            many(mesh.normals.size(), "normal") + " for " + many(mesh.positions.size(), "vertex"),
+            "a mesh has one normal per vertex, or none at all", "Mend the mesh."};
     return first_problem_among(
         mesh.normals, stop, [](const Vec3<float>& normal, std::size_t i) -> MaybeProblem {
             if (std::abs(length(normal) - 1) <= tolerance) return {};
@@ -380,7 +380,7 @@ MaybeProblem check_triangle_count(const Scene& scene)
     for (const Surface& surface : scene.surfaces)
         if (const Mesh* mesh = std::get_if<Mesh>(&surface.shape)) count += mesh->triangles.size();
     if (count <= limits::triangles) return {};
-    return Problem{"/surfaces", to_text(count) + " triangles",
+    return Problem{"/surfaces", many(count, "triangle"),
                    "a scene has at most " + to_text(limits::triangles) + " triangles",
                    "Simplify the meshes, or split the scene."};
 }
@@ -392,7 +392,7 @@ MaybeProblem check_light_count(const Lights& lights)
     const std::string allowed = "a scene has between 1 and " + to_text(limits::lights) + " lights";
     if (lights.empty()) return Problem{"/lights", "no lights", allowed, "Add a light."};
     if (lights.size() <= limits::lights) return {};
-    return Problem{"/lights", to_text(lights.size()) + " lights", allowed, "Split the scene."};
+    return Problem{"/lights", many(lights.size(), "light"), allowed, "Split the scene."};
 }
 
 Problem bad_emission(double radius, Emission emission, const Vec3<double>& emitted, bool is_number)

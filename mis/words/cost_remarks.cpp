@@ -259,8 +259,8 @@ void add_smallness(std::vector<std::string>& sentences, const CostSceneReport& s
     const double errors = static_cast<double>(scene.shading_points * scene.copies) *
                           static_cast<double>(scene.replicates);
     if (errors < 2 * least_participation)
-        sentences.push_back("Each error is the mean of " + count(errors) +
-                            " squares, too few to trust it: take a larger --resolution.");
+        sentences.push_back("Each error is the mean of " + counted(errors, "square") +
+                            ", too few to trust it: take a larger --resolution.");
 }
 
 /// On the scene as a whole.

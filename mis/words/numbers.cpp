@@ -49,15 +49,9 @@ std::string count(double value)
     return std::isfinite(value) ? fixed(std::round(value), 0) : number(value);
 }
 
-std::string many(std::size_t count, std::string_view what)
+std::string counted(double value, std::string_view what)
 {
-    std::string text = std::to_string(count) + " ";
-    if (count == 1) return text.append(what);
-    const bool is_y = what.size() > 1 && what.ends_with('y') &&
-                      std::string_view("aeiou").find(what[what.size() - 2]) == what.npos;
-    if (is_y) return text.append(what.substr(0, what.size() - 1)) + "ies";
-    const bool hisses = what.ends_with("sh") || what.ends_with('s') || what.ends_with('x');
-    return text.append(what) + (hisses ? "es" : "s");
+    return count(value) + " " + noun(count(value) == "1" ? 1 : 2, what);
 }
 
 std::string percent(double share) { return number(100 * share, 2) + " %"; }

@@ -2,8 +2,8 @@
 
 #include "mis/report/report.h"
 #include "mis/sampling/sample_name.h"
+#include "mis/scene/text.h"
 
-#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,8 +18,8 @@ std::string number(double value, int digits = 3);
 /// A count: "1048576", rounded to whole.
 std::string count(double value);
 
-/// "1 light", "5 lights", "2 strategies".
-std::string many(std::size_t count, std::string_view what);
+/// "1 sample", "256 samples".
+std::string counted(double value, std::string_view what);
 
 /// "12 %", "0.3 %".
 std::string percent(double share);

@@ -16,7 +16,7 @@ const char* variance_words(bool is_relative)
 /// "4096 samples", or "256 scramblings".
 std::string words_of(const reason::Observations& of)
 {
-    return count(of.count) + (of.are_scramblings ? " scramblings" : " samples");
+    return counted(of.count, of.are_scramblings ? "scrambling" : "sample");
 }
 
 std::string words_of(const reason::None&) { return ""; }
@@ -27,8 +27,8 @@ std::string words_of(const reason::Stopped&) { return "stopped before its turn";
 
 std::string words_of(const reason::PastBudget& why)
 {
-    return "past the budget: the first " + count(why.samples) +
-           " samples of it and of those that cost less would take more than " + percent(why.share) +
+    return "past the budget: the first " + counted(why.samples, "sample") +
+           " of it and of those that cost less would take more than " + percent(why.share) +
            " of the time given";
 }
 
@@ -66,8 +66,7 @@ std::string words_of(const reason::RoundingAlone& why)
 {
     const std::string found = "its samples differ by the rounding of floats alone, ";
     if (why.zero_points > 0)
-        return found + "but at " + count(static_cast<double>(why.zero_points)) +
-               (why.zero_points == 1 ? " point" : " points") +
+        return found + "but at " + many(why.zero_points, "point") +
                " all of them are 0, which proves nothing: rare samples may not have been drawn yet";
     return found + "which shows no variance and does not prove that there is none";
 }
@@ -124,7 +123,7 @@ std::string words_of(const reason::NoFirstLook&)
 std::string words_of(const reason::SampleTooDear& why)
 {
     return "past the budget: one sample per point takes " + duration(why.seconds) + ", " +
-           std::to_string(why.times) + " times";
+           many(static_cast<std::size_t>(why.times), "time");
 }
 
 std::string words_of(const reason::NoTimeLeft&)

@@ -340,6 +340,16 @@ TEST(NearestName, OffersWhatWasProbablyMeantAndNothingElse)
     EXPECT_EQ(nearest_name("--", options), "");
 }
 
+TEST(Text, CountsInWordsThatAgree)
+{
+    EXPECT_EQ(many(1, "light"), "1 light");
+    EXPECT_EQ(many(0, "light"), "0 lights");
+    EXPECT_EQ(many(2, "mesh"), "2 meshes");
+    EXPECT_EQ(many(3, "vertex"), "3 vertices");
+    EXPECT_EQ(many(4, "strategy"), "4 strategies");
+    EXPECT_EQ(many(5, "ray"), "5 rays");
+}
+
 TEST(Text, WritesTheShortestNumberThatReadsBack)
 {
     EXPECT_EQ(to_text(0.1), "0.1");
