@@ -146,11 +146,12 @@ std::string errors(const CostSceneReport& scene, const TextLook& look)
     return "\n" + table.text(look);
 }
 
-/// "0.83±0.03s", with "*" where extrapolated; "<0.83s" where that is a bound.
+/// "830±30ms", with "*" where extrapolated; "<0.83s" where that is a bound.
 std::string time_cell(const TimeToError& t)
 {
     if (t.reach == Reach::unknown) return "- ";
     if (t.reach == Reach::at_most) return "<" + short_duration(t.seconds.high) + " ";
+    if (!(t.seconds.low > 0)) return "<" + short_duration(t.seconds.high) + " ";
     return short_duration(t.seconds) + (t.reach == Reach::extrapolated ? "*" : " ");
 }
 
@@ -214,10 +215,16 @@ std::string legend(const CostSceneReport& scene, const TextLook& look)
             return std::ranges::count(c.times, reach, &TimeToError::reach) > 0;
         });
     };
+    const bool any_bound = any_curve([](const CostCurveReport& c) {
+        return std::ranges::any_of(c.times, [](const TimeToError& t) {
+            return t.reach != Reach::unknown && !(t.seconds.low > 0);
+        });
+    });
     Legend legend;
     legend.add(any_curve([](const auto& c) { return !c.points.empty() && !c.fits; }), "! not -0.5");
     legend.add(any_point(Trust::rare_samples), "~ few samples carry it");
-    legend.add(any_point(Trust::below_reference) || any_time(Reach::at_most), "< at most");
+    legend.add(any_point(Trust::below_reference) || any_time(Reach::at_most) || any_bound,
+               "< at most");
     legend.add(any_time(Reach::extrapolated), "* extrapolated");
     legend.add(any_time(Reach::unknown), "- not known");
     return legend.text(look);

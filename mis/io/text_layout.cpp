@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -21,16 +22,37 @@ std::size_t width_of(const std::string& text)
 
 namespace {
 
-/// Words, where "2 %" and "3.4 ± 0.2" are one.
+bool ends_number(const std::string& word)
+{
+    return std::isdigit(static_cast<unsigned char>(word.back())) != 0 || word.ends_with(')');
+}
+
+/// "(9.2", which "to 13)" follows.
+bool opens_interval(const std::string& word)
+{
+    const std::size_t open = word.rfind('(');
+    return open != word.npos && word.find(')', open) == word.npos && open + 1 < word.size() &&
+           (std::isdigit(static_cast<unsigned char>(word[open + 1])) != 0 || word[open + 1] == '-');
+}
+
+/// Does `next` belong to the figure that `words` end with: "2 %", "3.4 ± 0.2", "11 (9.2 to 13) µs"?
+bool goes_on(const std::string& words, const std::string& next)
+{
+    constexpr std::array<std::string_view, 6> units{"s", "ms", "µs", "min", "h", "days"};
+    const std::string bare = next.substr(0, next.find_last_not_of(".,;:)") + 1);
+    return next[0] == '%' || next == "±" || words.ends_with("±") || opens_interval(words) ||
+           (ends_number(words) &&
+            (std::ranges::find(units, bare) != units.end() || opens_interval(next)));
+}
+
+/// Words, where a figure with its interval and unit is one.
 std::vector<std::string> words_of(const std::string& text)
 {
     std::istringstream stream(text);
     std::vector<std::string> words;
-    bool joins = false;
     for (std::string word; stream >> word;) {
-        if (!words.empty() && (joins || word[0] == '%' || word == "±")) words.back() += " " + word;
+        if (!words.empty() && goes_on(words.back(), word)) words.back() += " " + word;
         else words.push_back(word);
-        joins = word == "±";
     }
     return words;
 }
@@ -193,13 +215,14 @@ struct Unit {
     const char* name;
 };
 
-Unit unit_of(double seconds)
+/// least: of the unit; what is less is given in the next smaller one.
+Unit unit_of(double seconds, double least)
 {
     if (seconds >= 36e5) return {86400, "d"};
     if (seconds >= 5995) return {3600, "h"};
     if (seconds >= 99.5) return {60, "m"};
-    if (seconds >= 0.0995 || seconds <= 0) return {1, "s"};
-    if (seconds >= 0.995e-4) return {1e-3, "ms"};
+    if (seconds >= least || seconds <= 0) return {1, "s"};
+    if (seconds >= 1e-3 * least) return {1e-3, "ms"};
     return {1e-6, "µs"};
 }
 
@@ -213,7 +236,7 @@ std::string short_interval(const Interval& x)
 std::string short_duration(double seconds)
 {
     if (!std::isfinite(seconds)) return "";
-    const Unit unit = unit_of(seconds);
+    const Unit unit = unit_of(seconds, 0.0995);
     return fmt::format("{:.{}g}{}", seconds / unit.seconds, unit.seconds == 86400 ? 3 : 2,
                        unit.name);
 }
@@ -221,7 +244,7 @@ std::string short_duration(double seconds)
 std::string short_duration(const Interval& seconds)
 {
     if (!has_error(seconds)) return short_duration(seconds.value);
-    const Unit unit = unit_of(seconds.value);
+    const Unit unit = unit_of(seconds.value, 1);  // 227±8ms, not 0.227±0.008s
     return short_interval({seconds.value / unit.seconds, seconds.low / unit.seconds,
                            seconds.high / unit.seconds}) +
            unit.name;

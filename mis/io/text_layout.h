@@ -66,7 +66,7 @@ std::string short_interval(const Interval& x);
 /// "0.83s", "12ms", "3.1m", "2.5h".
 std::string short_duration(double seconds);
 
-/// "0.83±0.02s", "0.8(0.5–1.3)s".
+/// "830±20ms", "1.8(1.2–2.3)s".
 std::string short_duration(const Interval& seconds);
 
 /// A table of text: columns as wide as they must be, the second ("strategy") to the left, the

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace mis {
 namespace {
@@ -140,22 +141,21 @@ std::string slope_of_first(const CostCurveReport& first)
            " falls in time was not measured well enough to set beside -1/2.";
 }
 
-/// "a (-0.53 ± 0.01) and b (-0.61 ± 0.02)": the first three, and how many more.
+/// "a at -0.53 ± 0.01 and b at -0.61 ± 0.02": the first three, and how many more.
 std::string with_slopes(const std::vector<const CostCurveReport*>& curves)
 {
     constexpr std::size_t most = 3;
     std::vector<std::string> names;
     for (const CostCurveReport* curve : curves)
         if (names.size() < most)
-            names.push_back(name_of(*curve) +
-                            (steepness(*curve) == Steepness::unknown
-                                 ? std::string()
-                                 : " (" + with_error(curve->slope_in_time) + ")"));
+            names.push_back(name_of(*curve) + (steepness(*curve) == Steepness::unknown
+                                                   ? std::string()
+                                                   : " at " + with_error(curve->slope_in_time)));
     if (curves.size() > most) names.push_back(std::to_string(curves.size() - most) + " more");
     return listed(names);
 }
 
-/// "Of 5 others, 3 agree with -1/2, …".
+/// "Slopes in time of the 5 others: as -1/2: a at -0.51 ± 0.02; steeper: b at -0.61 ± 0.02".
 void add_other_slopes(std::vector<std::string>& sentences, const CostSceneReport& scene,
                       const CostCurveReport* first)
 {
@@ -167,16 +167,13 @@ void add_other_slopes(std::vector<std::string>& sentences, const CostSceneReport
         ++others;
     }
     if (others == 0) return;
-    const auto at = [&](Steepness s) -> const auto& { return of[static_cast<std::size_t>(s)]; };
     std::vector<std::string> parts;
-    if (const std::size_t n = at(Steepness::as_theory).size(); n > 0)
-        parts.push_back(std::to_string(n) + (n == 1 ? " agrees" : " agree") + " with -1/2");
-    if (!at(Steepness::steeper).empty())
-        parts.push_back("steeper: " + with_slopes(at(Steepness::steeper)));
-    if (!at(Steepness::flatter).empty())
-        parts.push_back("flatter: " + with_slopes(at(Steepness::flatter)));
-    if (!at(Steepness::unknown).empty())
-        parts.push_back("not measured: " + with_slopes(at(Steepness::unknown)));
+    for (const auto& [kind, what] :
+         {std::pair{Steepness::as_theory, "as -1/2: "}, std::pair{Steepness::steeper, "steeper: "},
+          std::pair{Steepness::flatter, "flatter: "},
+          std::pair{Steepness::unknown, "not measured: "}})
+        if (const auto& curves = of[static_cast<std::size_t>(kind)]; !curves.empty())
+            parts.push_back(what + with_slopes(curves));
     std::string text = "Slopes in time of the " +
                        (others == 1 ? std::string("other") : std::to_string(others) + " others") +
                        ": ";

@@ -27,7 +27,7 @@ TEST(ShortNumbers, TakeSixPlaces)
     EXPECT_EQ(short_duration(0.5), "0.5s");
     EXPECT_EQ(short_duration(1e-5), "10µs");
     EXPECT_EQ(short_duration(7200), "2h");
-    EXPECT_EQ(short_duration(Interval{0.83, 0.81, 0.85}), "0.83±0.02s");
+    EXPECT_EQ(short_duration(Interval{0.83, 0.81, 0.85}), "830±20ms");
     EXPECT_EQ(short_duration(Interval{5e-3, 3e-3, 9e-3}), "5(3–9)ms");
     EXPECT_EQ(short_duration(Interval{7200, 7200, 7200}), "2h");
 }
@@ -43,6 +43,10 @@ TEST(Wrapped, BreaksBetweenWordsAndIndents)
 {
     EXPECT_EQ(wrapped("one two three", 2, 8), "one two\n  three\n");
     EXPECT_EQ(wrapped("within 2 % or 3 ± 1", 0, 8), "within\n2 % or\n3 ± 1\n");
+    EXPECT_EQ(wrapped("after 11 (9.2 to 13) µs, or so", 0, 9),
+              "after\n11 (9.2 to 13) µs,\nor so\n");
+    EXPECT_EQ(wrapped("in 1.7 s on 2 threads", 0, 6), "in\n1.7 s\non 2\nthreads\n");
+    EXPECT_EQ(wrapped("a (2 more) b", 0, 4), "a\n(2 more)\nb\n");
     EXPECT_EQ(wrapped("unbreakable", 2, 4), "unbreakable\n");
     EXPECT_EQ(wrapped("é é é é", 0, 7), "é é é é\n");
     EXPECT_EQ(wrapped("red \x1b[31mlamp", 0, 80), "red \\u001b[31mlamp\n");
