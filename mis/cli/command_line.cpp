@@ -33,7 +33,7 @@ std::string described(const std::vector<Choosable>& list)
 std::string strategy_help()
 {
     return "\nA strategy is policy/heuristic[/technique][/one-sample][@LIGHT+BSDF], as in "
-           "solid-angle/power or\n"
+           "solid-angle/power or "
            "power/balance/union@4+1; or one that chooses no light: brdf, cosine, "
            "hemisphere.\n\nPolicies:\n" +
            described(policy_names()) + "Heuristics:\n" + described(heuristic_names()) +
@@ -214,7 +214,7 @@ void add_cost(CLI::App& app, CostCommandOptions& options)
     add_output_options(c, options.output);
     c.footer([] {
         return "Without a list: every classic policy with the power heuristic, and brdf; the "
-               "soonest to 1 % of them also in\ndouble, and with four light draws per BSDF "
+               "soonest to 1 % of them also in double, and with four light draws per BSDF "
                "draw.\n\nExamples:\n"
                "  mis cost scenes/veach.json\n"
                "  mis cost scenes/street.json --strategy power/power,power/power@4+1 --time 60\n"
@@ -316,7 +316,7 @@ void add_predict(CLI::App& app, PredictOptions& options)
     add_output_options(c, options.output);
     c.footer(
         "Each figure stands with a bound of its error. Lights hide one another, spheres among the "
-        "surfaces hide\n"
+        "surfaces hide "
         "lights; meshes and quads must provably hide none.\n\nExamples:\n"
         "  mis predict scenes/eclipse.json\n"
         "  mis predict scenes/eclipse.json --strategy power/light,power/power/union,brdf\n"

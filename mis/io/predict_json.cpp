@@ -50,6 +50,7 @@ OrderedJson strategy_json(const PredictReport::Scene& scene, std::size_t i)
 PredictedVariances variances_of(const PredictReport::Scene& scene)
 {
     PredictedVariances found;
+    found.all_probes = scene.probes.size();
     for (const Strategy& strategy : scene.strategies) found.strategies.push_back(name_of(strategy));
     for (std::size_t p = 0; p < scene.probes.size(); ++p) {
         if (!scene.probes[p].refusal.empty()) continue;
@@ -95,7 +96,8 @@ std::string predict_json(const PredictReport& report)
         json["scenes"].push_back({{"file", scene.file},
                                   {"name", scene.name},
                                   {"lights", scene.lights},
-                                  {"strategies", strategies}});
+                                  {"strategies", strategies},
+                                  {"sentences", sentences_of(variances_of(scene))}});
     }
     return json_text(json);
 }

@@ -57,7 +57,9 @@ std::string how_much_more(const Interval& more, const Interval& less)
 std::string where(const PredictedVariances& found)
 {
     if (found.probes.size() == 1) return "At probe " + std::to_string(found.probes[0].number);
-    return "Over " + std::to_string(found.probes.size()) + " probes";
+    const bool are_some = found.probes.size() < found.all_probes;
+    return "Over " + std::to_string(found.probes.size()) +
+           (are_some ? " of " + std::to_string(found.all_probes) : "") + " probes";
 }
 
 std::vector<std::string> names_of(const PredictedVariances& found,

@@ -18,6 +18,7 @@ struct PredictedVariances {
     };
     std::vector<std::string> strategies;
     std::vector<AtProbe> probes;
+    std::size_t all_probes = 0;  ///< of the scene, with those that it could not answer for
 };
 
 /// Which strategy has the least variance, by how much and over which probes; which are exact, and

@@ -42,6 +42,8 @@ TEST(PredictSentences, TakeTheMeanOverProbesAndNameThoseWhereAnotherIsBetter)
                 ElementsAre("Over 2 probes b has the least mean variance, 3; next is a, with 1.5 "
                             "times as much.",
                             "At 1 of them another has less: a at probe 0."));
+    EXPECT_THAT(sentences_of({{"a"}, {at(0, {within(1, 0)}), at(2, {within(2, 0)})}, 4}),
+                ElementsAre("Over 2 of 4 probes a has the least mean variance, 1.5."));
 }
 
 TEST(PredictSentences, CallNothingLeastThatTheBoundsDoNotTellApart)
