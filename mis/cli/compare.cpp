@@ -98,6 +98,8 @@ void check_options(const CompareOptions& options)
         throw UsageError(fmt::format(
             "--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
     if (options.run.is_sobol()) check_scramblings(options);
+    if (options.force && options.out.empty())
+        throw UsageError("--force: found without --out DIR, the folder that it is for");
     check(options.output);
 }
 

@@ -58,6 +58,8 @@ TEST(Usage, IsAnsweredByOneMessageThatNamesWhatWasFoundAndWhatIsAllowed)
               "--point and --pixel: found neither; give one of them"},
         Wrong{"replay s.json --strategy brdf --sample 1 --pixel 1,2 --point 3",
               "--point and --pixel: found both; give one of them"},
+        Wrong{"compare s.json --force",
+              "--force: found without --out DIR, the folder that it is for"},
         Wrong{"replay s.json --strategy brdf --sample 1 --pixel 1x2",
               "--pixel: found \"1x2\"; a pixel is its column and row, as in 12,7"},
     };
