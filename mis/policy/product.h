@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/policy/seen_product.h"
+#include "mis/policy/weight_table.h"
 
 namespace mis {
 
