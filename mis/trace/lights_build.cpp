@@ -2,7 +2,6 @@
 #include "mis/trace/lights.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace mis {
