@@ -169,7 +169,7 @@ def measure(mis, runs, folder):
         write(folder / f"random-{count}.scene.json", json.dumps(random_scene(count)))
     for i, run in enumerate(runs):
         print(f"which_light.py: {run.name}, {i + 1} of {len(runs)}", file=sys.stderr, flush=True)
-        command = [mis, "compare", run.scene, "--resolution", run.resolution, "--spp", str(run.samples)]
+        command = [mis, "compare", run.scene, "--own-samples", "--resolution", run.resolution, "--spp", str(run.samples)]
         command += ["--strategy", ",".join(run.strategies), "--quiet", "--json", folder / f"{run.name}.json"]
         subprocess.run(command, cwd=ROOT, stdout=subprocess.DEVNULL, check=True)
 
@@ -356,7 +356,7 @@ def complete(name, scene):
     ranking = table(["strategy", "rank", "variance", "efficiency", *FIGURES], rows)
     pixels = "{} × {} pixels".format(*scene["resolution"])
     size = f"{pixels}, {scene['shading_points']} points, {scene['samples']} samples of each; lights: {scene['lights']}"
-    return "\n\n".join([f"## {name}", size, ranking, *scene["sentences"][:2]])
+    return "\n\n".join([f"## {name}", size, ranking, *scene["sentences"][:3]])
 
 
 # The pictures, as SVG.

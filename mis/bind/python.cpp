@@ -222,8 +222,9 @@ All are 0 where no light can be seen. Raises StrategyError and ValueError.)");
         "threads"_a = 0, R"(
 Ranks strategies by variance and by efficiency: the dict of mis-report/1 (docs/report-format.md),
 as `mis compare --json` writes it.
-Until settled or 30 s; or for `spp` samples per point, `seconds` of wall time, or until every
-ranked variance is known to ± `error` (a share). at: samples per point that efficiency is for.
+Until it is decided which to use and every ranked variance is known to 25 %, or 30 s; or for `spp`
+samples per point, `seconds` of wall time, or until every ranked variance is known to ± `error` (a
+share). at: samples per point that efficiency is for.
 sampler: "independent"; or "sobol", which measures variances over scramblings of `at` samples each.
 Raises StrategyError and ValueError.)");
 

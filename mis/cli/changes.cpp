@@ -1,6 +1,7 @@
 #include "mis/changes/changes.h"
 #include "mis/cli/commands.h"
 #include "mis/cli/interrupt.h"
+#include "mis/cli/terminal.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/changes_json.h"
 #include "mis/io/changes_text.h"
@@ -63,7 +64,8 @@ int run_changes(const CompareOptions& options)
             "runs over the same scenes, with strategies that both ranked, are compared.",
             options.scenes[0], options.scenes[1]));
     const OutputOptions& output = options.output;
-    if (output.json != "-" && output.csv != "-") fmt::print("{}", changes_text(changes));
+    if (output.json != "-" && output.csv != "-")
+        fmt::print("{}", changes_text(changes, look_of_output()));
     if (!output.json.empty())
         write_text(output.json, changes_json(changes, {.version = MIS_VERSION,
                                                        .command = options.run.command_line,

@@ -1,7 +1,10 @@
 #include "mis/cli/command_line.h"
 
 #include "mis/cli/commands.h"
-#include "mis/scene/nearest_name.h"
+#include "mis/cli/terminal.h"
+#include "mis/cli/usage_check.h"
+#include "mis/cli/values.h"
+#include "mis/sampling/number_source.h"
 #include "mis/strategy/names.h"
 #include "mis/strategy/strategy.h"
 
@@ -10,10 +13,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
-#include <functional>
 #include <limits>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace mis::cli {
 
@@ -29,64 +33,69 @@ std::string described(const std::vector<Choosable>& list)
 std::string strategy_help()
 {
     return "\nA strategy is policy/heuristic[/technique][/one-sample][@LIGHT+BSDF], as in "
-           "solid-angle/power or\n"
+           "solid-angle/power or "
            "power/balance/union@4+1; or one that chooses no light: brdf, cosine, "
            "hemisphere.\n\nPolicies:\n" +
            described(policy_names()) + "Heuristics:\n" + described(heuristic_names()) +
            "Techniques:\n" + described(technique_names());
 }
 
-/// What is wrong with the text of a whole number of that type, or nothing; the parser's own
-/// conversion would wrap −1 around.
-template <class Number> std::string whole_number_fault(const std::string& text)
+/// What stands in place of lists that are not given.
+std::string default_list()
 {
-    Number number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc{} && end == text.data() + text.size()) return "";
-    return fmt::format("found \"{}\"; a whole number from 0 to {} is needed", text,
-                       std::numeric_limits<Number>::max());
-}
-
-/// Likewise of a number that may be negative: the parser's own conversion would cut it off.
-std::string samples_fault(const std::string& text)
-{
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error == std::errc{} && end == text.data() + text.size()) return "";
-    return fmt::format("found \"{}\"; a whole number of samples is needed", text);
-}
-
-/// An empty word, as of a variable that was not set, is not the same as no option.
-std::function<std::string(const std::string&)> refuse_empty(const std::string& allowed)
-{
-    return [allowed](const std::string& text) {
-        return text.empty() ? "found \"\"; " + allowed + " is needed" : "";
+    constexpr std::size_t many_lights = 1'000'000;
+    const auto ranked = [](const std::vector<Choosable>& list) {
+        return fmt::format("{}", fmt::join(ranked_by_default(list, many_lights, true), ", "));
     };
+    return ranked(policy_names()) + ", as far as they may differ on the scene, each with " +
+           ranked(heuristic_names()) + "; and " +
+           fmt::format("{}", fmt::join(strategies_ranked_by_default(many_lights, true), ", "));
+}
+
+void add_threads(CLI::App& command, int& threads)
+{
+    command.add_option("--threads", threads, "threads to run on (0: as many as the machine has)")
+        ->check(whole_number_fault(0, most_threads, "a number of threads"))
+        ->type_name("N");
+}
+
+void add_seed(CLI::App& command, std::uint64_t& seed)
+{
+    command.add_option("--seed", seed, "seed of the random numbers")
+        ->capture_default_str()
+        ->check(whole_number_fault(0, std::numeric_limits<std::uint64_t>::max(), "a seed"))
+        ->type_name("N");
 }
 
 /// --threads, --seed, --quiet, --resolution, --effects; --sampler where samples are drawn.
 void add_run_options(CLI::App& command, RunOptions& options, bool draws_samples = true)
 {
-    command.add_option("--threads", options.threads,
-                       "threads to run on (0: as many as the machine has)");
-    command.add_option("--seed", options.seed, "seed of the random numbers")
-        ->capture_default_str()
-        ->check(whole_number_fault<std::uint64_t>);
+    add_threads(command, options.threads);
+    add_seed(command, options.seed);
     command
         .add_option("--resolution", options.resolution, "picture size WxH in place of the scene's")
-        ->check(refuse_empty("a resolution, as in 256x171,"));
+        ->check(empty_fault("a resolution, as in 256x171,"))
+        ->type_name("WxH");
     command
         .add_option("--effects", options.effects,
                     "auto: only what the scene and each tile of it call for; all: everything; "
                     "NAME=off: auto, and refused where the scene calls for that effect")
+        ->type_name("NAME")
         ->capture_default_str();
     if (draws_samples)
         command
             .add_option("--sampler", options.sampler,
                         "independent: random numbers; sobol: scrambled sequences, whose samples "
                         "spread evenly")
+            ->type_name("NAME")
             ->capture_default_str();
     command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
+}
+
+void add_verbose(CLI::App& command, RunOptions& options)
+{
+    command.add_flag("--verbose", options.verbose,
+                     "every trouble with its reason, not one line for each kind");
 }
 
 void add_json_option(CLI::App& command, OutputOptions& options)
@@ -94,7 +103,7 @@ void add_json_option(CLI::App& command, OutputOptions& options)
     command
         .add_option("--json", options.json,
                     "write the figures as JSON to FILE, or - for standard output")
-        ->check(refuse_empty("a file, or - for standard output,"))
+        ->check(empty_fault("a file, or - for standard output,"))
         ->type_name("FILE");
 }
 
@@ -104,20 +113,31 @@ void add_output_options(CLI::App& command, OutputOptions& options)
     command
         .add_option("--csv", options.csv,
                     "write the figures as CSV to FILE, or - for standard output")
-        ->check(refuse_empty("a file, or - for standard output,"))
+        ->check(empty_fault("a file, or - for standard output,"))
         ->type_name("FILE");
+}
+
+void add_samples(CLI::App& command, StopOptions& options, const std::string& what)
+{
+    command.add_option("--spp", options.spp, what)->check(integer_fault)->type_name("N");
+}
+
+void add_time(CLI::App& command, StopOptions& options, const std::string& otherwise = "")
+{
+    command
+        .add_option_function<std::string>(
+            "--time", [&options](const std::string& text) { options.seconds = seconds_in(text); },
+            "wall time after reading and building trees: seconds, or 500ms, 90s, 2m, 1.5h" +
+                otherwise)
+        ->check(duration_fault)
+        ->type_name("TIME");
 }
 
 void add_stop_options(CLI::App& command, StopOptions& options, const std::string& error)
 {
-    command.add_option("--spp", options.spp, "samples per shading point")
-        ->check(samples_fault)
-        ->type_name("N");
-    command
-        .add_option("--time", options.seconds,
-                    "seconds of wall time, after reading and building trees")
-        ->type_name("S");
-    command.add_option("--error", options.error, error)->type_name("E");
+    add_samples(command, options, "samples per shading point");
+    add_time(command, options);
+    command.add_option("--error", options.error, error)->check(number_fault)->type_name("E");
 }
 
 /// --policy, --heuristic, --technique, --model, --strategy.
@@ -146,25 +166,32 @@ void add_compare(CLI::App& app, CompareOptions& options)
     c.add_option("--at", options.at,
                  "samples per point that the efficiency is for; with --sampler sobol, those of one "
                  "scrambling, and the variance too is for them")
+        ->check(number_fault)
         ->type_name("N")
         ->capture_default_str();
     c.add_option(
          "--fail-on-regression", options.fail_on_regression,
          "of two reports: exit code 1 where a variance or a cost surely grew by more than P "
          "percent, a mean changed or a strategy is newly biased")
+        ->check(number_fault)
         ->type_name("P");
     c.add_option("--out", options.out, "folder for the whole report")
-        ->check(refuse_empty("a folder"))
+        ->check(empty_fault("a folder"))
         ->type_name("DIR");
     c.add_flag("--force", options.force, "write into a folder that exists");
+    c.add_flag("--own-samples", options.own_samples,
+               "measure each variance by the strategy's own samples alone, not by directions that "
+               "all share");
     c.add_flag("--trap", options.trap,
                "stop at the first sample that is no number, and say how to replay it");
     add_run_options(c, options.run);
+    add_verbose(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
-        return "Without a list: every classic policy x light, balance, power, and brdf; until "
-               "settled, or 30 s per scene. Two reports: what changed, and how sure that "
-               "is.\n\nExamples:\n"
+        return "Without a list: " + default_list() +
+               ". Without --spp, --time or --error: until it is decided which to use and every "
+               "variance is known to 25 %, or 30 s per scene. Two reports: what changed, and how "
+               "sure that is.\n\nExamples:\n"
                "  mis compare scenes/veach.json\n"
                "  mis compare scenes/street.json --policy power,radiant-solid-angle --heuristic "
                "light,power --json street-report.json\n"
@@ -196,17 +223,14 @@ void add_cost(CLI::App& app, CostCommandOptions& options)
     add_strategy_lists(c, options);
     c.add_option("--precision", options.precisions, "float, double: every strategy in each")
         ->type_name("LIST");
-    c.add_option("--spp", options.stop.spp, "samples per shading point of the last doubling")
-        ->check(samples_fault)
-        ->type_name("N");
-    c.add_option("--time", options.stop.seconds,
-                 "seconds of wall time, after reading and building trees (30)")
-        ->type_name("S");
+    add_samples(c, options.stop, "samples per shading point of the last doubling");
+    add_time(c, options.stop, " (30)");
     add_run_options(c, options.run);
+    add_verbose(c, options.run);
     add_output_options(c, options.output);
     c.footer([] {
         return "Without a list: every classic policy with the power heuristic, and brdf; the "
-               "soonest to 1 % of them also in\ndouble, and with four light draws per BSDF "
+               "soonest to 1 % of them also in double, and with four light draws per BSDF "
                "draw.\n\nExamples:\n"
                "  mis cost scenes/veach.json\n"
                "  mis cost scenes/street.json --strategy power/power,power/power@4+1 --time 60\n"
@@ -251,22 +275,30 @@ void add_replay(CLI::App& app, ReplayOptions& options)
     c.add_option("scene", options.scene, "scene file")->required()->type_name("SCENE");
     c.add_option("--strategy", options.strategy, "by name")->required()->type_name("NAME");
     c.add_option("--point", options.point,
-                 "number of the shading point: its pixel's; probes follow")
-        ->required()
-        ->check(whole_number_fault<std::uint32_t>)
+                 "number of the shading point: its pixel's, row by row from the top; then the "
+                 "probes'")
+        ->check(
+            whole_number_fault(0, std::numeric_limits<std::uint32_t>::max(), "a point's number"))
         ->type_name("N");
+    c.add_option_function<std::string>(
+         "--pixel", [&options](const std::string& text) { options.pixel = pixel_in(text); },
+         "in place of --point: column and row of a pixel, from 0,0 at the top left")
+        ->check(pixel_fault)
+        ->type_name("X,Y");
     c.add_option("--sample", options.sample, "number of the sample at that point")
         ->required()
-        ->check(whole_number_fault<std::uint64_t>)
+        ->check(
+            whole_number_fault(0, std::numeric_limits<std::uint64_t>::max(), "a sample's number"))
         ->type_name("N");
     c.add_option("--at", options.at,
                  "with --sampler sobol: samples of one scrambling, as --at of compare (all of a "
                  "point's, as in render and cost)")
-        ->check(whole_number_fault<std::uint64_t>)
+        ->check(whole_number_fault(1, one_scrambling, "a number of samples"))
         ->type_name("N");
     add_run_options(c, options.run);
     c.footer(
-        "Example:\n  mis replay scenes/eclipse.json --strategy power/light --point 20000 "
+        "Examples:\n  mis replay scenes/eclipse.json --strategy power/light --point 20000 "
+        "--sample 3\n  mis replay scenes/veach.json --strategy uniform/power --pixel 32,78 "
         "--sample 3");
 }
 
@@ -281,9 +313,7 @@ void add_integrate(CLI::App& app, IntegrateOptions& options)
     c.add_option("-n", options.samples, "draws, from 1 to 1e9")
         ->type_name("N")
         ->capture_default_str();
-    c.add_option("--seed", options.seed, "seed of the random numbers")
-        ->check(whole_number_fault<std::uint64_t>)
-        ->capture_default_str();
+    add_seed(c, options.seed);
     add_output_options(c, options.output);
     c.footer("Densities:\n" + densities_help() +
              "\nExamples:\n  mis integrate\n  mis integrate --pdf angles -n 1e6\n"
@@ -297,12 +327,12 @@ void add_predict(CLI::App& app, PredictOptions& options)
         "exact mean and variance of every strategy at a scene's probes, without random numbers");
     c.add_option("scene", options.scene, "scene file with probes")->required()->type_name("SCENE");
     add_strategy_lists(c, options);
-    c.add_option("--threads", options.threads, "threads to run on (0: as many as the machine has)");
+    add_threads(c, options.threads);
     c.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");
     add_output_options(c, options.output);
     c.footer(
         "Each figure stands with a bound of its error. Lights hide one another, spheres among the "
-        "surfaces hide\n"
+        "surfaces hide "
         "lights; meshes and quads must provably hide none.\n\nExamples:\n"
         "  mis predict scenes/eclipse.json\n"
         "  mis predict scenes/eclipse.json --strategy power/light,power/power/union,brdf\n"
@@ -324,33 +354,31 @@ std::string typed(int argc, char** argv)
     return line;
 }
 
-/// Throws UsageError where the first word is no command.
-void check_command(const CLI::App& app, int argc, char** argv)
+/// The words after the program's name; "help COMMAND" is "COMMAND --help".
+std::vector<std::string> words_of(int argc, char** argv)
 {
-    if (argc < 2 || argv[1][0] == '-') return;
-    std::vector<std::string> names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        names.push_back(command->get_name());
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    if (std::find(known.begin(), known.end(), argv[1]) == known.end())
-        refuse_name("found command", argv[1], known);
+    std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+    if (words.empty() || words[0] != "help") return words;
+    if (words.size() == 1 || words[1] == "help" || asks_for_help(words)) return {"--help"};
+    if (words.size() > 2)
+        throw UsageError(fmt::format("help: found \"{}\" after \"{}\"; it takes one command",
+                                     words[2], words[1]));
+    return {words[1], "--help"};
 }
 
-/// Throws UsageError where a word looks like an option, and the command has none of that name.
-void check_options_known(const CLI::App& command, int argc, char** argv)
+void print_help(const std::string& text)
 {
-    std::vector<std::string> names;
-    for (const CLI::Option* option : command.get_options())
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    for (int i = 2; i < argc; ++i) {
-        const std::string word = argv[i];
-        if (word == "--") return;
-        const std::string name = word.substr(0, word.find('='));
-        if (!word.starts_with("--") || std::find(known.begin(), known.end(), name) != known.end())
-            continue;
-        refuse_name(command.get_name() + ": found option", name, known);
-    }
+    fmt::print("{}", fitted(text, look_of_output().columns));
+}
+
+/// Prints what is asked for instead of a run: help, or the version.
+bool is_answered(CLI::App& app, const std::vector<std::string>& words)
+{
+    if (words[0] == "--version") return fmt::print("mis {}\n", MIS_VERSION), true;
+    if (words[0] == "--help" || words[0] == "-h") return print_help(app.help()), true;
+    const CLI::App& command = command_named(app, words[0]);
+    if (!asks_for_help(words)) return false;
+    return print_help(command.help("mis")), true;
 }
 
 }  // namespace
@@ -359,10 +387,13 @@ int run_command_line(int argc, char** argv)
 {
     CLI::App app(
         "mis ranks the ways to choose a light: direct lighting from spherical sources, by variance "
-        "and by time.");
+        "and by time.",
+        "mis");
     app.set_version_flag("--version", std::string("mis ") + MIS_VERSION);
     app.require_subcommand(1);
-    app.footer("mis COMMAND --help shows each command's options and examples.");
+    app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+    app.footer(
+        "mis COMMAND --help, or mis help COMMAND, shows each command's options and examples.");
     CompareOptions compare;
     CostCommandOptions cost;
     RenderOptions render;
@@ -377,14 +408,17 @@ int run_command_line(int argc, char** argv)
     add_predict(app, predict);
     ReplayOptions replay;
     add_replay(app, replay);
-    check_command(app, argc, argv);
-    if (argc > 1 && argv[1][0] != '-')
-        check_options_known(*app.get_subcommand(argv[1]), argc, argv);
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        command->group("Commands");
+    const std::vector<std::string> words = words_of(argc, argv);
+    if (words.empty())
+        throw UsageError("found no command; mis help lists them, mis help COMMAND explains one");
+    if (is_answered(app, words)) return ok;
+    check_usage(*app.get_subcommand(words[0]), std::span(words).subspan(1));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        const int code = app.exit(error);
-        return code == 0 ? ok : usage;
+        throw UsageError(error.what());  // of a value: the option, and its fault
     }
     const std::string line = typed(argc, argv);
     compare.given_for_scenes = given_for_scenes(*app.get_subcommand("compare"));

@@ -2,6 +2,8 @@
 
 #include "mis/cli/options.h"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ struct CompareOptions {
         given_for_scenes;  ///< options on the line that two reports do not take
     std::string out;       ///< folder, or empty
     bool force = false, trap = false;
+    bool own_samples = false;  ///< variances come from these alone
     RunOptions run;
     StopOptions stop;
     OutputOptions output;
@@ -60,7 +63,8 @@ int run_explain(const ExplainOptions& options);
 
 struct ReplayOptions {
     std::string scene, strategy;
-    std::uint32_t point = 0;
+    std::optional<std::uint32_t> point;
+    std::optional<std::array<int, 2>> pixel;  ///< in place of the point: column, row
     std::uint64_t sample = 0;
     std::optional<std::uint64_t> at;  ///< samples per scrambling
     RunOptions run;

@@ -7,6 +7,7 @@
 #include "mis/cli/report_folder.h"
 #include "mis/cli/run_head.h"
 #include "mis/cli/strategy_list.h"
+#include "mis/cli/terminal.h"
 #include "mis/io/report_csv.h"
 #include "mis/io/report_json.h"
 #include "mis/io/report_peek.h"
@@ -51,6 +52,7 @@ StudyOptions study_options(const CompareOptions& options, const Scene& scene, Pr
     StudyOptions study;
     study.seed = options.run.seed;
     study.at = options.at;
+    study.own_samples = options.own_samples;
     if (options.run.is_sobol())
         study.samples_per_scrambling = static_cast<std::uint64_t>(options.at);
     if (options.stop.spp) study.spp = static_cast<std::uint64_t>(*options.stop.spp);
@@ -68,7 +70,8 @@ StudyOptions study_options(const CompareOptions& options, const Scene& scene, Pr
         for (const StrategyReport& s : so_far.strategies)
             if (s.rank_by_efficiency == 1) best = &s;
         if (best != nullptr) text += ", ahead: " + name_of(best->strategy);
-        progress.show(text, done, so_far.strategies.empty() ? "" : ranking_text(so_far));
+        progress.show(text, done,
+                      so_far.strategies.empty() ? "" : ranking_text(so_far, look_of_errors()));
     };
     return study;
 }
@@ -96,6 +99,8 @@ void check_options(const CompareOptions& options)
         throw UsageError(fmt::format(
             "--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
     if (options.run.is_sobol()) check_scramblings(options);
+    if (options.force && options.out.empty())
+        throw UsageError("--force: found without --out DIR, the folder that it is for");
     check(options.output);
 }
 
@@ -118,7 +123,7 @@ void write_outputs(const CompareOptions& options, const Report& report,
 std::string no_time_message(const std::string& file, const CompareOptions& options)
 {
     return fmt::format(
-        "--time: found {}; in so many seconds not even the shading points of {} were found\n    "
+        "--time: found {} s; in that time not even the shading points of {} were found\n    "
         "Give more time, or a lower --resolution.",
         options.stop.seconds.value_or(StudyOptions().default_seconds), file);
 }
@@ -138,8 +143,8 @@ void add_scene(const std::string& file, const CompareOptions& options,
     const ReadyScene ready(file, options.run);
     const StrategySelection selection = select_strategies(request, traits_of(ready.scene));
     const std::vector<Strategy>& strategies = selection.strategies;
-    if (!options.run.quiet) tell_left_out(selection, told);
     check_memory(ready.scene, strategies.size(), !options.out.empty());
+    if (!options.run.quiet) tell_left_out(selection, told);
     report.threads = ready.executor.threads;
     if (options.stop.spp)
         ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
@@ -160,7 +165,7 @@ void add_scene(const std::string& file, const CompareOptions& options,
     report.partial = report.partial || study.report.partial;
     if (options.output.json == "-" || options.output.csv == "-") return;
     fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
-               scene_text(report.scenes.back(), report));
+               scene_text(report.scenes.back(), report, look_of_output(options.run.verbose)));
     std::fflush(stdout);
 }
 
@@ -202,7 +207,10 @@ int run_compare(const CompareOptions& options)
         if (interrupt_flag()) break;
     }
     report.overall = rank_overall(report.scenes);
-    if (shows_table) fmt::print("{}", overall_text(report));
+    if (shows_table) {
+        const std::string overall = overall_text(report, look_of_output(options.run.verbose));
+        fmt::print("{}{}", overall.empty() ? "" : "\n", overall);
+    }
     write_outputs(options, report, maps);
     return report.partial ? interrupted : ok;
 }

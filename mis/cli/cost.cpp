@@ -6,6 +6,7 @@
 #include "mis/cli/remark.h"
 #include "mis/cli/run_head.h"
 #include "mis/cli/strategy_list.h"
+#include "mis/cli/terminal.h"
 #include "mis/cost/cost_study.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/cost_json.h"
@@ -101,7 +102,7 @@ int run_cost(const CostCommandOptions& options)
                                      [](const auto& curve) { return curve.points.empty(); }))
         throw Stopped();
     if (options.output.json != "-" && options.output.csv != "-")
-        write_text("-", cost_text(found, report.threads));
+        write_text("-", cost_text(found, report.threads, look_of_output(options.run.verbose)));
     if (!options.output.json.empty()) write_text(options.output.json, cost_json(report));
     if (!options.output.csv.empty()) write_text(options.output.csv, cost_csv(report));
     return report.partial ? interrupted : ok;

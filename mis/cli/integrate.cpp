@@ -2,6 +2,7 @@
 
 #include "mis/cli/interrupt.h"
 #include "mis/cli/progress.h"
+#include "mis/cli/values.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/integral_report.h"
 #include "mis/scene/nearest_name.h"
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -24,18 +24,9 @@ constexpr std::array<std::string_view, 5> pdf_names{"hemisphere", "cosine", "ang
                                                     "all"};
 constexpr std::uint64_t most_samples = 1'000'000'000;
 
-/// The number that the whole text is.
-template <class T> std::optional<T> number_in(const std::string& text)
-{
-    T value{};
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && rest == end ? std::optional(value) : std::nullopt;
-}
-
 std::uint64_t samples_of(const IntegrateOptions& options)
 {
-    const std::optional<double> n = number_in<double>(options.samples);
+    const std::optional<double> n = number_in(options.samples);
     if (!n || !(*n >= 1 && *n <= double(most_samples)) || *n != std::floor(*n))
         throw UsageError(fmt::format("-n: found \"{}\"; a number of draws is whole, from 1 to {}",
                                      options.samples, most_samples));
@@ -46,7 +37,7 @@ double exponent_of(const IntegrateOptions& options)
 {
     constexpr double usual = 10;
     if (!options.exponent) return usual;
-    const std::optional<double> m = number_in<double>(*options.exponent);
+    const std::optional<double> m = number_in(*options.exponent);
     if (!m || !(*m >= 0) || !std::isfinite(*m))
         throw UsageError(
             fmt::format("--exponent: found \"{}\"; an exponent is a finite number, at least 0",

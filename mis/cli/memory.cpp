@@ -1,6 +1,7 @@
 #include "mis/cli/memory.h"
 
 #include "mis/cli/options.h"
+#include "mis/scene/text.h"
 #include "mis/study/maps.h"
 
 #include <fmt/format.h>
@@ -19,10 +20,11 @@ void check_memory(const Scene& scene, std::size_t strategies, bool with_maps)
     const double there =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     if (needed > 0.8 * there)
-        throw UsageError(fmt::format(
-            "{}: {} shading points by {} strategies take about {:.1f} GB, and this machine has "
-            "{:.1f} GB\n    Lower --resolution, or compare fewer strategies.",
-            scene.file, points, strategies, needed / 1e9, there / 1e9));
+        throw UsageError(
+            fmt::format("{}: {} by {} take about {:.1f} GB, and this machine has "
+                        "{:.1f} GB\n    Lower --resolution, or compare fewer strategies.",
+                        scene.file, many(points, "shading point"), many(strategies, "strategy"),
+                        needed / 1e9, there / 1e9));
 }
 
 }  // namespace mis::cli

@@ -6,6 +6,7 @@
 #include "mis/io/text_file.h"
 #include "mis/run/tbb.h"
 #include "mis/scene/nearest_name.h"
+#include "mis/scene/text.h"
 #include "mis/scene/validate.h"
 
 #include <fmt/format.h>
@@ -66,9 +67,8 @@ void check(const StopOptions& options, std::int64_t least_spp)
             fmt::format("--spp: found {}; {} to {} samples per shading point are allowed",
                         *options.spp, least_spp, most_spp));
     if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 1e7))
-        throw UsageError(
-            fmt::format("--time: found {}; a time is greater than 0 and at most 1e7 seconds",
-                        *options.seconds));
+        throw UsageError(fmt::format(
+            "--time: found {} s; a time is greater than 0 and at most 1e7 s", *options.seconds));
     if (options.error && !(*options.error > 0 && *options.error < 10))
         throw UsageError(fmt::format(
             "--error: found {}; a relative error is greater than 0 and below 10", *options.error));
@@ -165,16 +165,13 @@ std::string no_points_message(const Scene& scene)
 
 std::string turned_normals_message(std::size_t count)
 {
-    return fmt::format("{} shading normals lean away from the viewer, and are turned to him\n",
-                       count);
+    return fmt::format("{} away from the viewer, and {} turned to him\n",
+                       many(count, "shading normal") + (count == 1 ? " leans" : " lean"),
+                       count == 1 ? "is" : "are");
 }
 
 AnyExecutor make_executor(const RunOptions& options)
 {
-    constexpr int most = 1024;
-    if (options.threads < 0 || options.threads > most)
-        throw UsageError(
-            fmt::format("--threads: found {}; 0 to {} are allowed", options.threads, most));
     return any_executor(TbbExecutor(options.threads));
 }
 

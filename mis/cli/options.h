@@ -27,7 +27,7 @@ struct UsageError : std::runtime_error {
 struct RunOptions {
     int threads = 0;  ///< 0: as many as the machine has
     std::uint64_t seed = 1;
-    bool quiet = false;
+    bool quiet = false, verbose = false;
     std::string resolution;        ///< "WxH", or empty for the scene's
     std::string effects = "auto";  ///< auto, all, or NAME=off
     std::string sampler = "independent";
@@ -68,7 +68,9 @@ std::string no_points_message(const Scene& scene);
 /// What to say where shading normals were turned off their surface (PointCounts).
 std::string turned_normals_message(std::size_t count);
 
-/// As many threads as asked for. Throws UsageError.
+inline constexpr int most_threads = 1024;
+
+/// As many threads as asked for.
 AnyExecutor make_executor(const RunOptions& options);
 
 /// Throws UsageError: a word that is none of `known`, with the one that is nearest. what:

@@ -4,9 +4,11 @@
 #include "mis/cli/progress.h"
 #include "mis/cli/remark.h"
 #include "mis/cli/strategy_list.h"
+#include "mis/cli/terminal.h"
 #include "mis/io/atomic_file.h"
 #include "mis/io/predict_json.h"
 #include "mis/io/text_layout.h"
+#include "mis/words/numbers.h"
 
 #include <fmt/format.h>
 
@@ -85,9 +87,10 @@ int run_predict(const PredictOptions& options)
         std::ranges::all_of(found.probes, [](const auto& probe) { return probe.figures.empty(); }))
         throw Stopped();
     if (options.output.json != "-" && options.output.csv != "-")
-        write_text("-", fmt::format("{}: {} probes, {} lights\n\n{}",
+        write_text("-", fmt::format("{}: {}, {}\n\n{}",
                                     printable(found.name.empty() ? found.file : found.name),
-                                    found.probes.size(), found.lights, predict_text(found)));
+                                    many(found.probes.size(), "probe"), many(found.lights, "light"),
+                                    predict_text(found, look_of_output())));
     if (!options.output.json.empty()) write_text(options.output.json, predict_json(report));
     if (!options.output.csv.empty()) write_text(options.output.csv, predict_csv(report));
     if (report.partial) return interrupted;

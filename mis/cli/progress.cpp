@@ -1,10 +1,9 @@
 #include "mis/cli/progress.h"
 
-#include "mis/cli/remark.h"
+#include "mis/cli/terminal.h"
 #include "mis/io/text_layout.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,17 +13,6 @@ namespace mis::cli {
 
 namespace {
 
-struct TerminalSize {
-    std::size_t columns = 80, rows = 24;
-};
-
-TerminalSize terminal_size()
-{
-    winsize size{};
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col <= 20) return {};
-    return {size.ws_col, size.ws_row};
-}
-
 /// The first lines of a text, as many as fit, each ended by a line feed; how many they are.
 std::string first_lines(const std::string& text, std::size_t most, std::size_t& count)
 {
@@ -33,10 +21,20 @@ std::string first_lines(const std::string& text, std::size_t most, std::size_t& 
     return text.substr(0, end);
 }
 
+/// As many whole words of a line as fit.
+std::string first_words(const std::string& line, std::size_t columns)
+{
+    const std::string lines = fitted(line, columns);
+    const std::string first = lines.substr(0, lines.find('\n'));
+    return width_of(first) <= columns ? first : "";
+}
+
+void draw(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 }  // namespace
 
 Progress::Progress(bool is_wanted)
-    : is_shown_(is_wanted && isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now())
+    : is_shown_(is_wanted && is_screen(STDERR_FILENO)), start_(std::chrono::steady_clock::now())
 {
 }
 
@@ -49,8 +47,8 @@ bool Progress::is_due() const
 /// To the beginning of what was drawn last, which is wiped.
 void Progress::go_back() const
 {
-    if (lines_above_ > 0) remark("\x1b[{}A", lines_above_);
-    remark("\r\x1b[J");
+    if (lines_above_ > 0) draw(fmt::format("\x1b[{}A", lines_above_));
+    draw("\r\x1b[J");
 }
 
 void Progress::show(const std::string& what, double done, const std::string& table)
@@ -66,11 +64,11 @@ void Progress::show(const std::string& what, double done, const std::string& tab
     std::string line =
         fmt::format("[{}{}] {:3.0f} %  {}  {}", std::string(filled, '#'),
                     std::string(bar - filled, '.'), share * 100, left, printable(what));
-    const TerminalSize terminal = terminal_size();
-    line.resize(std::min(line.size(), terminal.columns - 1));
+    const TerminalSize terminal = terminal_size(STDERR_FILENO);
+    line = first_words(line, terminal.columns - 1);
     if (is_drawn_) go_back();
-    const bool has_room = terminal.columns >= text_columns && terminal.rows > 8;
-    remark("{}{}", first_lines(table, has_room ? terminal.rows - 2 : 0, lines_above_), line);
+    const bool has_room = terminal.rows > 8;
+    draw(first_lines(table, has_room ? terminal.rows - 2 : 0, lines_above_) + line);
     std::fflush(stderr);
     is_drawn_ = true;
 }

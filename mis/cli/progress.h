@@ -18,7 +18,7 @@ public:
 
     /// Would show() draw? At most ten times a second.
     bool is_due() const;
-    /// done: in [0, 1]. table: lines of text_columns at most; those that the terminal has no room
+    /// done: in [0, 1]. table: lines that fit into the terminal; those that it has no room
     /// for are left out.
     void show(const std::string& what, double done, const std::string& table = "");
     void clear();

@@ -8,6 +8,7 @@
 #include "mis/engine/render.h"
 #include "mis/engine/stopwatch.h"
 #include "mis/io/image_exr.h"
+#include "mis/scene/text.h"
 #include "mis/stats/resolved.h"
 #include "mis/strategy/strategy.h"
 
@@ -132,11 +133,12 @@ Outcome render_exactly(const ReadyScene& ready, Progress& progress)
     }
     if (!share.is_all())
         throw UsageError(fmt::format(
-            "--strategy exact: {} of the {} shading points of {}, in {} of {} tiles, have a closed "
+            "--strategy exact: {} of the {} of {}, in {} of {}, have a closed "
             "form, and all must: surfaces without a lobe, and no surface and no other light that "
             "may stand before any light; `mis explain` says why one may\n"
             "    `mis predict` has exact values of probes on any material.",
-            share.exact, share.points, ready.scene.file, share.exact_tiles, share.tiles));
+            share.exact, many(share.points, "shading point"), ready.scene.file, share.exact_tiles,
+            many(share.tiles, "tile")));
     outcome.shading_points = share.points;
     return outcome;
 }
@@ -305,20 +307,22 @@ void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strate
                    const RenderOptions& options, double seconds)
 {
     const std::string how =
-        strategy ? fmt::format("{} samples each by {}", outcome.samples, name_of(*strategy))
+        strategy ? fmt::format("{} each by {}", many(outcome.samples, "sample"), name_of(*strategy))
                  : "each by its closed form";
-    remark("{}: {} x {} pixels, {} shading points, {}, {:.2f} s{}\n", options.out,
-           outcome.image.width, outcome.image.height, outcome.shading_points, how, seconds,
+    remark("{}: {} x {} pixels, {}, {}, {:.2f} s{}\n", options.out, outcome.image.width,
+           outcome.image.height, many(outcome.shading_points, "shading point"), how, seconds,
            interruption(outcome));
     const bool is_sobol = strategy && options.run.is_sobol();
     if (outcome.error)
         remark("{}{}\n", in_words(*outcome.error),
                is_sobol ? ", were its samples independent" : "");
     if (is_sobol && !std::has_single_bit(outcome.samples) && !outcome.is_partial)
-        remark("{} samples: a Sobol' sequence spreads most evenly at powers of two\n",
-               outcome.samples);
+        remark("{}: a Sobol' sequence spreads most evenly at powers of two\n",
+               many(outcome.samples, "sample"));
     if (outcome.turned_normals > 0) remark("{}", turned_normals_message(outcome.turned_normals));
-    if (outcome.invalid > 0) remark("{} samples were not finite and count as 0\n", outcome.invalid);
+    if (outcome.invalid > 0)
+        remark("{} {} NaN or infinite, and counted as 0\n", many(outcome.invalid, "sample"),
+               outcome.invalid == 1 ? "was" : "were");
 }
 
 }  // namespace

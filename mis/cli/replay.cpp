@@ -17,8 +17,40 @@ struct Found {
     const ShadingPoint* point;
 };
 
+/// The number of the point that is asked for. Throws UsageError where that is no pixel.
+std::uint32_t point_id(const ReplayOptions& options, const Scene& scene)
+{
+    if (options.point) return *options.point;
+    const auto [x, y] = *options.pixel;
+    if (!scene.camera)
+        throw UsageError(fmt::format("--pixel: {} has no camera; its probes go by --point 0, 1, …",
+                                     options.scene));
+    const auto [width, height] = scene.camera->resolution;
+    if (x >= width || y >= height)
+        throw UsageError(
+            fmt::format("--pixel: found {},{}; the picture is {}x{}, so pixels go from "
+                        "0,0 to {},{}",
+                        x, y, width, height, width - 1, height - 1));
+    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width) +
+           static_cast<std::uint32_t>(x);
+}
+
+[[noreturn]] void refuse_point(const ReplayOptions& options)
+{
+    if (options.pixel)
+        throw UsageError(
+            fmt::format("--pixel: found {},{}, where {} shows no surface that can be "
+                        "lit\n    Take another pixel, at the same --resolution.",
+                        (*options.pixel)[0], (*options.pixel)[1], options.scene));
+    throw UsageError(fmt::format(
+        "--point: found {}, which is no point of {} that can be lit\n    A point's number is its "
+        "pixel's, row by row from the top, at the same --resolution; after all pixels, the "
+        "probe's.",
+        *options.point, options.scene));
+}
+
 /// Throws UsageError where no point that can be lit has that id.
-Found find_point(const StudyPoints& points, std::uint32_t id, const std::string& scene)
+Found find_point(const StudyPoints& points, std::uint32_t id, const ReplayOptions& options)
 {
     for (const Tile& tile : points.shading.tiles) {
         const auto own = std::span(points.shading.points).subspan(tile.first, tile.count);
@@ -26,11 +58,7 @@ Found find_point(const StudyPoints& points, std::uint32_t id, const std::string&
             std::find_if(own.begin(), own.end(), [&](const ShadingPoint& p) { return p.id == id; });
         if (at != own.end()) return {&tile, &*at};
     }
-    throw UsageError(fmt::format(
-        "--point: found {}, which is no point of {} that can be lit\n    A point's number is its "
-        "pixel's, row by row from the top, at the same --resolution; after all pixels, the "
-        "probe's.",
-        id, scene));
+    refuse_point(options);
 }
 
 /// A figure, or a dash where no stage has come to it yet.
@@ -66,15 +94,13 @@ NumberSource numbers_of(const ReplayOptions& options)
     return {options.run.seed, options.run.is_sobol() ? options.at.value_or(one_scrambling) : 0};
 }
 
-void check_at(const ReplayOptions& options)
+void check(const ReplayOptions& options)
 {
-    if (!options.at) return;
-    if (!options.run.is_sobol())
+    if (options.point.has_value() == options.pixel.has_value())
+        throw UsageError(fmt::format("--point and --pixel: found {}; give one of them",
+                                     options.point ? "both" : "neither"));
+    if (options.at && !options.run.is_sobol())
         throw UsageError("--at: samples of one scrambling are meant; it takes --sampler sobol");
-    if (*options.at < 1 || *options.at > one_scrambling)
-        throw UsageError(
-            fmt::format("--at: found {}; 1 to {} samples of one scrambling are allowed",
-                        *options.at, one_scrambling));
 }
 
 template <class T>
@@ -93,14 +119,15 @@ Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Str
 
 int run_replay(const ReplayOptions& options)
 {
-    check_at(options);
+    check(options);
     const Strategy strategy = parse_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
+    const std::uint32_t id = point_id(options, ready.scene);
     const StudyPoints points = find_study_points(ready.lit, ready.stoppable_executor());
-    const Found found = find_point(points, options.point, options.scene);
+    const Found found = find_point(points, id, options);
     const Vec3<double>& x = found.point->x;
     fmt::print("{}: {}, point {} at {:.6g} {:.6g} {:.6g}, sample {}, seed {}, {}\n", options.scene,
-               name_of(strategy), options.point, x.x, x.y, x.z, options.sample, options.run.seed,
+               name_of(strategy), id, x.x, x.y, x.z, options.sample, options.run.seed,
                kernels<float>().instruction_set);
     const Vec3<double> in_float = run_in<float>(options, ready.lit, strategy, found, true),
                        in_double = run_in<double>(options, ready.lit, strategy, found, false);

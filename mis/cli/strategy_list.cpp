@@ -25,14 +25,14 @@ void add(StrategySelection& selection, const Strategy& strategy)
         selection.strategies.push_back(strategy);
 }
 
-/// Which policies are not among these, and how to have them.
+/// The policies that are not among these, as --policy takes them.
 std::string policies_beside(const std::vector<std::string>& policies)
 {
     std::string others;
     for (const std::string& name : names_of(policy_names()))
         if (std::find(policies.begin(), policies.end(), name) == policies.end())
             others += (others.empty() ? "" : ",") + name;
-    return "the policies that know most of a light; --policy " + others + " ranks them";
+    return others;
 }
 
 /// A light draw by itself has no BSDF draw; whether that has a meaning is not asked.
@@ -48,7 +48,7 @@ Strategy combined(const std::string& model, const std::string& technique, const 
 /// The lists of a request, and what stands in place of those that were not given.
 struct Product {
     std::vector<std::string> policies, heuristics, techniques, models;
-    std::vector<std::string> whole;  ///< strategies that choose no light, by their technique
+    std::vector<std::string> whole;  ///< strategies beside these
 };
 
 Product product_of(const StrategyRequest& request, const SceneTraits& scene)
@@ -65,8 +65,9 @@ Product product_of(const StrategyRequest& request, const SceneTraits& scene)
         if (std::erase(product.heuristics, "brdf") > 0) product.whole = {"brdf"};
     } else {
         product.heuristics = ranked(heuristic_names());
-        for (const std::string& technique : ranked(technique_names()))
-            if (!chooses_light(technique)) product.whole.push_back(technique);
+        for (const std::string& name : strategies_ranked_by_default(scene.lights, scene.has_lobes))
+            if (!parse_strategy(name).chooses_light() || !request.names_any_list)
+                product.whole.push_back(name);
     }
     return product;
 }
@@ -85,8 +86,10 @@ void add_product(StrategySelection& selection, const StrategyRequest& request,
                     } catch (const StrategyError& error) {
                         selection.left_out.emplace_back(error.what());
                     }
-    for (const std::string& technique : product.whole) add(selection, parse_strategy(technique));
-    if (!request.policies) selection.left_out.push_back(policies_beside(product.policies));
+    for (const std::string& name : product.whole) add(selection, parse_strategy(name));
+    if (const std::string others = policies_beside(product.policies);
+        !request.policies && !others.empty())
+        selection.left_out.push_back("not ranked by default here; add --policy " + others);
 }
 
 }  // namespace
@@ -106,7 +109,8 @@ std::vector<std::string> names_listed(const std::string& option,
 
 StrategyRequest read_lists(const StrategyLists& lists)
 {
-    StrategyRequest request{.has_product = lists.has_product()};
+    StrategyRequest request{.has_product = lists.has_product(),
+                            .names_any_list = lists.names_any_list()};
     std::vector<std::string> heuristics = names_of(heuristic_names());
     heuristics.emplace_back("brdf");
     const auto read = [](const char* option, const std::optional<std::string>& list,

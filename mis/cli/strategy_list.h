@@ -15,10 +15,8 @@ struct StrategyLists {
     std::optional<std::string> policies, heuristics, techniques, models, strategies;
 
     /// Is a product of lists asked for, as it is where nothing is?
-    bool has_product() const
-    {
-        return !strategies || policies || heuristics || techniques || models;
-    }
+    bool has_product() const { return !strategies || names_any_list(); }
+    bool names_any_list() const { return policies || heuristics || techniques || models; }
 };
 
 /// The same, read: names that are known, and strategies that have a meaning.
@@ -26,7 +24,7 @@ struct StrategyRequest {
     std::optional<std::vector<std::string>> policies, heuristics, techniques;
     std::vector<std::string> models;
     std::vector<Strategy> named;  ///< by --strategy
-    bool has_product = true;
+    bool has_product = true, names_any_list = false;
 };
 
 /// Throws StrategyError and UsageError for unknown names.

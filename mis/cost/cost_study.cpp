@@ -4,6 +4,7 @@
 #include "mis/cost/scene_report.h"
 #include "mis/cost/stopping.h"
 #include "mis/engine/stopwatch.h"
+#include "mis/scene/text.h"
 #include "mis/study/affordable.h"
 #include "mis/study/scene_facts.h"
 #include "mis/study/schedule.h"
@@ -131,8 +132,7 @@ private:
                 if (is_late()) return end_all();
                 if (curves_[c].is_done || !make_ready(curves_[c])) continue;
                 levels[c].add_replicate(curves_[c], samples, stream, options_.is_sobol);
-                show(1 - seconds_left() / options_.seconds,
-                     std::to_string(samples) + " samples per point");
+                show(1 - seconds_left() / options_.seconds, many(samples, "sample") + " per point");
             }
         }
         end_level(levels, 0, samples);

@@ -18,7 +18,7 @@ double points_of(const StudyGround& ground)
 
 RelativeScale scale_of(const StudyGround& ground, const std::vector<double>& means)
 {
-    return relative_scale(means, ground.points.figures(ground.scene.scene().camera.has_value()));
+    return relative_scale(means, ground.points.figures());
 }
 
 /// x over the scale; 0 where both are 0.
@@ -233,7 +233,7 @@ CostReference pooled_reference(const StudyGround& ground, const ReferenceLimit& 
         for (std::size_t s = 0; s < sources.size(); ++s) {
             const int own = s == 0 || taken == 0 ? count : std::max(1, count / check_share);
             const std::size_t lights = ground.scene.scene().lights.size();
-            if (!sources[s].run.sample_apart(samples_of(sources[s].run.strategy(), lights, own),
+            if (!sources[s].run.sample_apart({samples_of(sources[s].run.strategy(), lights, own)},
                                              ground.workspaces, ground.executor, ground.stop))
                 throw Stopped();
         }

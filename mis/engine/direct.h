@@ -1,10 +1,11 @@
 #pragma once
 
 #include "mis/engine/direct_lights.h"
+#include "mis/engine/draw.h"
+#include "mis/engine/union_draw.h"
 #include "mis/heuristic/heuristic.h"
 #include "mis/technique/technique.h"
 
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <concepts>
@@ -55,13 +56,6 @@ template <class T> struct DirectNumbers {
     Vec2<T> bsdf{0};           ///< where in the lobe
 };
 
-/// How many draws of each technique a sample has, or, in the one-sample model, their
-/// probabilities.
-template <class T> struct DirectCounts {
-    T light = 1;  ///< draws towards lights
-    T bsdf = 1;   ///< draws of the BSDF
-};
-
 /// One draw, and all that a host's own loop may want of it.
 template <class T> struct DirectDraw {
     Vec3<T> radiance{0};  ///< its share of the estimate; 0 where it meets no light or is occluded
@@ -92,30 +86,6 @@ template <class T> struct DirectSample {
     }
 };
 
-/// All lights along a direction: the nearest, and the union's density.
-struct LightsAlong {
-    LightHit nearest;  ///< the one that is seen
-    double pdf = 0;    ///< Σ P_k/Ω_k, per steradian
-};
-
-/// own: a light that the direction was drawn towards and therefore meets, or no_light.
-template <class Point>
-LightsAlong lights_along(const Point& point, const Vec3<double>& wi, const LightHit& own)
-{
-    const auto pdf_of = [&](LightIndex j) {
-        const Light& light = point.light(j);
-        return point.probability(j) /
-               cap_of_sphere(light.center, light.radius, point.x()).solid_angle();
-    };
-    LightsAlong along{own, own.light >= 0 ? pdf_of(own.light) : 0};
-    point.hierarchy().for_each_along(point.x(), wi, [&](const LightHit& hit) {
-        if (hit.light == own.light) return;
-        along.pdf += pdf_of(hit.light);
-        if (stands_before(hit, along.nearest)) along.nearest = hit;
-    });
-    return along;
-}
-
 /// A draw towards a light that was chosen with some probability.
 template <class Heuristic, class Technique, class Point, class T = typename Point::Number>
 requires ChoosingPoint<Point, T> DirectDraw<T> draw_towards(const Point& point,
@@ -137,29 +107,27 @@ requires ChoosingPoint<Point, T> DirectDraw<T> draw_towards(const Point& point,
         return result;
     }
 
-    const T inverse_pdf_over_sin = cap.sin_max * draw.inverse_pdf_sin2;
     const T probability = static_cast<T>(choice.probability);
-    Vec3<T> radiance_over_pdf =
-        vec_cast<T>(light.radiance_radius) / cap.distance * inverse_pdf_over_sin;
-    result.light_pdf = probability * Technique::pdf(cap, point.n(), cos_theta);
+    Vec3<T> over_pdf = radiance_over_pdf(vec_cast<T>(light.radiance_radius), cap, draw);
+    result.light_pdf = light_density<Technique>(probability, cap, point.n(), cos_theta);
     // Without the rounding to T: a float direction is off by more than a small light is wide.
     const Vec3<double> to_center = light.center - point.x();
-    const Vec3<double> exact_wi = normalized(normalized(to_center) + vec_cast<double>(draw.offset));
-    const double met = hit_distance(to_center, light.radius, exact_wi);
-    const LightHit own{choice.light, std::isfinite(met) ? met : dot(to_center, exact_wi)};
+    const Vec3<double> exact_wi = exact_direction(to_center, vec_cast<double>(draw.offset));
+    const LightHit own = own_hit(choice.light, to_center, light.radius, exact_wi);
     if constexpr (Technique::sums_lights) {
-        const LightsAlong along = lights_along(point, exact_wi, own);
-        const double solid_angle =
-            cap_of_sphere(light.center, light.radius, point.x()).solid_angle();
-        const double share = choice.probability / (solid_angle * along.pdf);
-        result.light_pdf /= static_cast<T>(share);
-        if (along.nearest.light != choice.light) {
-            radiance_over_pdf =
-                vec_cast<T>(radiance(point.light(along.nearest.light)) * solid_angle);
-            result.light = along.nearest.light;
-            result.distance = static_cast<T>(along.nearest.distance);
+        const double solid_angle = point.solid_angle(choice.light);
+        const UnionDraw in_union = draw_in_union(
+            point.hierarchy(), point.x(), exact_wi, own, choice.probability / solid_angle,
+            [&](LightIndex j) { return point.probability(j); },
+            [&](LightIndex j) { return point.solid_angle(j); });
+        const auto ratio = static_cast<T>(in_union.ratio);
+        result.light_pdf /= ratio;
+        if (in_union.nearest.light != choice.light) {
+            result.light = in_union.nearest.light;
+            result.distance = static_cast<T>(in_union.nearest.distance);
+            over_pdf = vec_cast<T>(radiance(point.light(result.light)) * solid_angle);
         }
-        radiance_over_pdf *= static_cast<T>(share);
+        over_pdf *= ratio;
     }
     result.bsdf_pdf = static_cast<T>(bsdf.pdf(draw.wi));
     assert(!(result.bsdf_pdf < 0) && "bsdf.pdf: not negative");
@@ -167,10 +135,9 @@ requires ChoosingPoint<Point, T> DirectDraw<T> draw_towards(const Point& point,
         result.radiance = no_radiance<T>();
         return result;
     }
-    result.weight = Heuristic::weight(
-        std::array<T, 2>{counts.light * result.light_pdf, counts.bsdf * result.bsdf_pdf}, 0);
-    const Vec3<T> share = Vec3<T>(bsdf.evaluate(draw.wi)) * cos_theta * radiance_over_pdf *
-                          (result.weight / (counts.light * probability));
+    result.weight = weight_of<Heuristic>(0, counts, result.light_pdf, result.bsdf_pdf);
+    const Vec3<T> f_cos = Vec3<T>(bsdf.evaluate(draw.wi)) * cos_theta;
+    const Vec3<T> share = light_draw_share(f_cos, over_pdf, result.weight, counts, probability);
     if (share == Vec3<T>(0)) return result;
     if constexpr (!Technique::sums_lights)
         if (point.hierarchy().hides(point.x(), exact_wi, own)) return result;
@@ -210,17 +177,17 @@ requires ChoosingPoint<Point, T> DirectDraw<T> draw_bsdf(const Point& point,
         return result;
     }
 
+    result.light_pdf = light_density<Technique>(static_cast<T>(point.probability(hit.light)),
+                                                point.cap(hit.light), point.n(), cos_theta);
     if constexpr (Technique::sums_lights)
-        result.light_pdf = static_cast<T>(lights_along(point, wi, {}).pdf);
-    else
-        result.light_pdf = static_cast<T>(point.probability(hit.light)) *
-                           Technique::pdf(point.cap(hit.light), point.n(), cos_theta);
-    result.weight = Heuristic::weight(
-        std::array<T, 2>{counts.light * result.light_pdf, counts.bsdf * result.bsdf_pdf}, 1);
-    const Light& light = point.light(hit.light);
-    const Vec3<T> share = Vec3<T>(bsdf.evaluate(result.wi)) * cos_theta *
-                          vec_cast<T>(radiance(light)) *
-                          (result.weight / (counts.bsdf * result.bsdf_pdf));
+        result.light_pdf = union_density(
+            point.hierarchy(), point.x(), wi, hit.light, result.light_pdf,
+            [&](LightIndex j) { return point.probability(j); },
+            [&](LightIndex j) { return point.solid_angle(j); });
+    result.weight = weight_of<Heuristic>(1, counts, result.light_pdf, result.bsdf_pdf);
+    const Vec3<T> f_cos = Vec3<T>(bsdf.evaluate(result.wi)) * cos_theta;
+    const Vec3<T> share = bsdf_draw_share(f_cos, vec_cast<T>(radiance(point.light(hit.light))),
+                                          result.weight, counts, result.bsdf_pdf);
     if (share != Vec3<T>(0) && !is_occluded(result.wi, result.distance)) result.radiance = share;
     return result;
 }

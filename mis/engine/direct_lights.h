@@ -1,8 +1,9 @@
 #pragma once
 
+#include "mis/engine/draw.h"
 #include "mis/engine/light_columns.h"
 #include "mis/engine/radiance_scale.h"
-#include "mis/math/cap.h"
+#include "mis/engine/union_draw.h"
 #include "mis/trace/lights.h"
 
 #include <algorithm>
@@ -173,10 +174,11 @@ public:
     Cap<T> cap(LightIndex j) const
     {
         const Vec3<double> to_center = light(j).center - x_;
-        const double gap2 = length2(to_center) - light(j).radius * light(j).radius;
-        return cap_towards(vec_cast<T>(to_center), static_cast<T>(light(j).radius),
-                           max_of(static_cast<T>(gap2), T(1e-37)));
+        return cap_of_light(vec_cast<T>(to_center), static_cast<T>(light(j).radius),
+                            static_cast<T>(gap2_of(to_center, light(j).radius)));
     }
+    /// That of light j, steradians, in double.
+    double solid_angle(LightIndex j) const { return solid_angle_from(x_, light(j)); }
 
 protected:
     /// Keeps references to both.

@@ -40,6 +40,11 @@ template <class T> struct TileJob {
     std::uint32_t bsdf_draws = 1;       ///< per sample
     const StopToken* stop = nullptr;    ///< asked between batches and draws; nullptr: never
 
+    /// The record of a light.
+    MIS_INLINE const Light& light(LightIndex j) const
+    {
+        return (*lights)[static_cast<std::size_t>(j)];
+    }
     /// Is that proved of a light?
     MIS_INLINE bool knows(LightIndex light, LightProof proof) const
     {

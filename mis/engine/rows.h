@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/engine/draw.h"
 #include "mis/engine/job.h"
 
 #include <algorithm>
@@ -21,6 +22,15 @@ template <class V, class T> MIS_INLINE V lanes_of(const Column<T>& column, int r
 template <class V, class T> MIS_INLINE void set_lanes(Column<T>& column, int row, const V& value)
 {
     store_lanes(&column[static_cast<std::size_t>(row)], value);
+}
+
+/// v where a condition holds, lane by lane; else 0.
+template <class Condition, class T>
+MIS_INLINE Vec3<T> zero_unless(const Condition& condition, const Vec3<T>& v)
+{
+    const T zero = number<T>(0);
+    return {select(condition, v.x, zero), select(condition, v.y, zero),
+            select(condition, v.z, zero)};
 }
 
 template <class T> MIS_INLINE bool is_zero(const VecColumn<T>& column, int row)
@@ -73,27 +83,28 @@ template <class T> MIS_INLINE Vec3<double> unit_direction(const Batch<T>& batch,
     return normalized(vec_cast<double>(batch.wi.at(row)));
 }
 
-/// The direction of a light draw without the rounding to T: axis in double, plus the offset.
+/// From a row's point to the centre of its light.
+template <class T>
+MIS_INLINE Vec3<double> to_light(const TileJob<T>& job, const Batch<T>& batch, int row)
+{
+    return job.light(batch.light[static_cast<std::size_t>(row)]).center -
+           shading_point(job, batch, row).x;
+}
+
+/// That of a row's light draw.
 template <class T>
 MIS_INLINE Vec3<double> exact_direction(const TileJob<T>& job, const Batch<T>& batch, int row)
 {
-    const Light& light =
-        (*job.lights)[static_cast<std::size_t>(batch.light[static_cast<std::size_t>(row)])];
-    return normalized(normalized(light.center - shading_point(job, batch, row).x) +
-                      vec_cast<double>(batch.offset.at(row)));
+    return exact_direction(to_light(job, batch, row), vec_cast<double>(batch.offset.at(row)));
 }
 
-/// Where a light draw meets its own light; at the rim, where rounding may miss it, the nearest
-/// point of the ray.
+/// That of a row's light draw along wi.
 template <class T>
 MIS_INLINE LightHit own_hit(const TileJob<T>& job, const Batch<T>& batch, int row,
                             const Vec3<double>& wi)
 {
     const LightIndex j = batch.light[static_cast<std::size_t>(row)];
-    const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
-    const Vec3<double> to_center = light.center - shading_point(job, batch, row).x;
-    const double distance = hit_distance(to_center, light.radius, wi);
-    return {j, distance < std::numeric_limits<double>::infinity() ? distance : dot(to_center, wi)};
+    return own_hit(j, to_light(job, batch, row), job.light(j).radius, wi);
 }
 
 }  // namespace mis

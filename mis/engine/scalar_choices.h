@@ -2,6 +2,7 @@
 
 #include "mis/bsdf/any_bsdf.h"
 #include "mis/bsdf/bsdf.h"
+#include "mis/math/cap.h"
 #include "mis/policy/light_choice.h"
 #include "mis/scene/scene.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/engine/draw.h"
 #include "mis/engine/rows.h"
 #include "mis/sampling/horizon.h"
 
@@ -34,8 +35,7 @@ void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
         Vec3<V> f_cos = value.f * wi.z;
         V pdf = value.pdf;
         if constexpr (horizon) {
-            f_cos = {select(above, f_cos.x, zero), select(above, f_cos.y, zero),
-                     select(above, f_cos.z, zero)};
+            f_cos = zero_unless(above, f_cos);
             pdf = select(above, pdf, zero);
         }
         batch.contribution.set(row, f_cos);
@@ -80,18 +80,17 @@ void pdf_of_direction(const TileJob<T>&, Batch<T>& batch)
 /// contribution (f cos θ), radiance, densities → contribution (share of the estimate).
 template <class V, class Heuristic, class T> void weigh_bsdf(const TileJob<T>& job, Batch<T>& batch)
 {
-    const V light_count(job.light_count), bsdf_count(job.bsdf_count), zero = number<V>(0);
+    const DirectCounts<V> of_technique{V(job.light_count), V(job.bsdf_count)};
+    const V zero = number<V>(0);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const V pdf = lanes_of<V>(batch.bsdf_pdf, row);
-        const std::array<V, 2> density{V(light_count * lanes_of<V>(batch.light_pdf, row)),
-                                       V(bsdf_count * pdf)};
-        const V weight = Heuristic::weight(density, 1) / (bsdf_count * pdf);
+        const V weight =
+            weight_of<Heuristic>(1, of_technique, V(lanes_of<V>(batch.light_pdf, row)), pdf);
         const Vec3<V> share =
-            batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) * weight;
+            bsdf_draw_share(batch.contribution.template get<V>(row),
+                            batch.radiance.template get<V>(row), weight, of_technique, pdf);
         const auto counts = pdf > zero;
-        batch.contribution.set(row,
-                               Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
-                                       select(counts, share.z, zero)));
+        batch.contribution.set(row, zero_unless(counts, share));
     });
 }
 
@@ -104,9 +103,7 @@ template <class V, class T> void weigh_alone(const TileJob<T>&, Batch<T>& batch)
         const Vec3<V> share =
             batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) / pdf;
         const auto counts = pdf > zero;
-        batch.contribution.set(row,
-                               Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
-                                       select(counts, share.z, zero)));
+        batch.contribution.set(row, zero_unless(counts, share));
     });
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "mis/engine/draw.h"
 #include "mis/engine/rows.h"
+#include "mis/engine/union_draw.h"
 #include "mis/technique/technique.h"
 
 namespace mis {
@@ -88,7 +90,7 @@ template <class T> void scale_radiance(const TileJob<T>& job, Batch<T>& batch)
     for (int row = 0; row < batch.rows; ++row) {
         const LightIndex j = batch.light[static_cast<std::size_t>(row)];
         if (j < 0) continue;
-        const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
+        const Light& light = job.light(j);
         batch.radiance.put(
             row, vec_cast<T>(vec_cast<double>(light.radiance_radius) * job.radiance_scale));
     }
@@ -113,11 +115,11 @@ template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
                     leave_black(row);
                     continue;
                 }
-                const Light& light = (*job.lights)[static_cast<std::size_t>(batch.light[i])];
+                const Light& light = job.light(batch.light[i]);
                 const Vec3<double> to_center = light.center - x;
                 batch.to_center.put(row, vec_cast<T>(to_center));
                 batch.radius[i] = static_cast<T>(light.radius);
-                batch.gap2[i] = static_cast<T>(length2(to_center) - light.radius * light.radius);
+                batch.gap2[i] = static_cast<T>(gap2_of(to_center, light.radius));
                 batch.radiance.put(row, vec_cast<T>(light.radiance_radius));
             }
         });
@@ -130,10 +132,8 @@ template <class T> void fetch_light(const TileJob<T>& job, Batch<T>& batch)
 
 template <class V, class T> MIS_INLINE Cap<V> cap_of_row(const Batch<T>& batch, int row)
 {
-    // A point that rounding puts onto the light sees a hemisphere of it, never the root of a
-    // negative number.
-    const V gap2 = max_of(lanes_of<V>(batch.gap2, row), number<V>(1e-37));
-    return cap_towards(batch.to_center.template get<V>(row), lanes_of<V>(batch.radius, row), gap2);
+    return cap_of_light(batch.to_center.template get<V>(row), lanes_of<V>(batch.radius, row),
+                        lanes_of<V>(batch.gap2, row));
 }
 
 /// light, u, v → wi, offset, cos_theta, distance, light_pdf, radiance over the pdf of the cap.
@@ -149,15 +149,10 @@ template <class V, class Technique, class T> void draw_light(const TileJob<T>& j
         batch.offset.set(row, draw.offset);
         set_lanes(batch.cos_theta, row, draw.cos_theta);
         set_lanes(batch.distance, row, draw.distance);
-        // As pdf_of_light does it for the other half, to the last bit: or both halves of `maximum`
-        // could think the other's density the larger.
-        const V pdf = Technique::pdf(cap, n, draw.cos_theta);
-        set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
-        // 1/pdf = sin² · inverse_pdf_sin2, taken one sine at a time: the square of a tiny radius is
-        // no normal number.
-        const V inverse_pdf_sin = cap.sin_max * draw.inverse_pdf_sin2;
-        batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) * cap.inverse_distance *
-                                        inverse_pdf_sin));
+        set_lanes(batch.light_pdf, row,
+                  light_density<Technique>(V(lanes_of<V>(batch.probability, row)), cap, n,
+                                           draw.cos_theta));
+        batch.radiance.set(row, radiance_over_pdf(batch.radiance.template get<V>(row), cap, draw));
     });
 }
 
@@ -170,8 +165,9 @@ void pdf_of_light(const TileJob<T>& job, Batch<T>& batch)
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const Cap<V> cap = cap_of_row<V>(batch, row);
         const Vec3<V> n = batch.n.template get<V>(row);
-        const V pdf = Technique::pdf(cap, n, V(lanes_of<V>(batch.cos_theta, row)));
-        set_lanes(batch.light_pdf, row, V(lanes_of<V>(batch.probability, row) * pdf));
+        set_lanes(batch.light_pdf, row,
+                  light_density<Technique>(V(lanes_of<V>(batch.probability, row)), cap, n,
+                                           V(lanes_of<V>(batch.cos_theta, row))));
         const V inverse_radius = number<V>(1) / cap.radius;
         batch.radiance.set(row, Vec3<V>(batch.radiance.template get<V>(row) * inverse_radius));
     });
@@ -182,31 +178,21 @@ void pdf_of_light(const TileJob<T>& job, Batch<T>& batch)
 template <class V, class Heuristic, class T>
 void weigh_light(const TileJob<T>& job, Batch<T>& batch)
 {
-    const V light_count(job.light_count), bsdf_count(job.bsdf_count), zero = number<V>(0);
+    const DirectCounts<V> of_technique{V(job.light_count), V(job.bsdf_count)};
+    const V zero = number<V>(0);
     for_each_lane_group<V>(batch.rows, [&](int row) {
         const V probability = lanes_of<V>(batch.probability, row);
         const auto counts = probability > zero;
-        const V chosen = select(counts, probability, number<V>(1));
-        const std::array<V, 2> density{V(light_count * lanes_of<V>(batch.light_pdf, row)),
-                                       V(bsdf_count * lanes_of<V>(batch.bsdf_pdf, row))};
-        const V weight = Heuristic::weight(density, 0) / (light_count * chosen);
-        const Vec3<V> share =
-            batch.contribution.template get<V>(row) * batch.radiance.template get<V>(row) * weight;
-        batch.contribution.set(row,
-                               Vec3<V>(select(counts, share.x, zero), select(counts, share.y, zero),
-                                       select(counts, share.z, zero)));
+        const V weight = weight_of<Heuristic>(0, of_technique, V(lanes_of<V>(batch.light_pdf, row)),
+                                              V(lanes_of<V>(batch.bsdf_pdf, row)));
+        const Vec3<V> share = light_draw_share(
+            batch.contribution.template get<V>(row), batch.radiance.template get<V>(row), weight,
+            of_technique, V(select(counts, probability, number<V>(1))));
+        batch.contribution.set(row, zero_unless(counts, share));
     });
 }
 
-/// Steradians, in double.
-template <class T> double solid_angle(const TileJob<T>& job, LightIndex j, const Vec3<double>& x)
-{
-    const Light& light = (*job.lights)[static_cast<std::size_t>(j)];
-    return cap_of_sphere(light.center, light.radius, x).solid_angle();
-}
-
-/// The union's density for a light draw: the sum over all lights whose cap holds wi, and the
-/// radiance of the nearest.
+/// The union's density for a light draw, and the radiance of the nearest light.
 template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch<T>& batch)
 {
     for (int row = 0; row < batch.rows; ++row) {
@@ -216,25 +202,18 @@ template <class Table, class T> void sum_light_draw(const TileJob<T>& job, Batch
         const Table& table = table_of<Table>(batch, batch.point[i]);
         const Vec3<double> x = shading_point(job, batch, row).x;
         const Vec3<double> wi = exact_direction(job, batch, row);
-        LightHit nearest = own_hit(job, batch, row, wi);
-        const double own = static_cast<double>(batch.probability[i]) / solid_angle(job, chosen, x);
-        double others = 0;
-        job.hierarchy->for_each_along(x, wi, [&](const LightHit& hit) {
-            if (hit.light == chosen) return;
-            others +=
-                table.probability(job.place_of(hit.light)) / (solid_angle(job, hit.light, x) * own);
-            if (hit.distance < nearest.distance ||
-                (hit.distance == nearest.distance && hit.light < nearest.light))
-                nearest = hit;
-        });
-        const T ratio = static_cast<T>(1 / (1 + others));  // own density over the sum
+        const double solid_angle = solid_angle_from(x, job.light(chosen));
+        const UnionDraw in_union = draw_in_union(
+            *job.hierarchy, x, wi, own_hit(job, batch, row, wi),
+            static_cast<double>(batch.probability[i]) / solid_angle,
+            [&](LightIndex j) { return table.probability(job.place_of(j)); },
+            [&](LightIndex j) { return solid_angle_from(x, job.light(j)); });
+        const auto ratio = static_cast<T>(in_union.ratio);
         batch.light_pdf[i] /= ratio;
-        if (nearest.light != chosen) {
-            const Vec3<double> seen =
-                radiance((*job.lights)[static_cast<std::size_t>(nearest.light)]);
-            batch.radiance.put(
-                row, vec_cast<T>(seen * (solid_angle(job, chosen, x) * job.radiance_scale)));
-            batch.distance[i] = static_cast<T>(nearest.distance);
+        if (in_union.nearest.light != chosen) {
+            const Vec3<double> seen = radiance(job.light(in_union.nearest.light));
+            batch.radiance.put(row, vec_cast<T>(seen * (solid_angle * job.radiance_scale)));
+            batch.distance[i] = static_cast<T>(in_union.nearest.distance);
         }
         batch.radiance.put(row, batch.radiance.at(row) * ratio);
     }
@@ -247,16 +226,10 @@ template <class Table, class T> void sum_bsdf_draw(const TileJob<T>& job, Batch<
         const auto i = static_cast<std::size_t>(row);
         const Table& table = table_of<Table>(batch, batch.point[i]);
         const Vec3<double> x = shading_point(job, batch, row).x;
-        const Vec3<double> wi = unit_direction(batch, row);
-        double met = 0, others = 0;
-        job.hierarchy->for_each_along(x, wi, [&](const LightHit& hit) {
-            (hit.light == batch.light[i] ? met : others) +=
-                table.probability(job.place_of(hit.light)) / solid_angle(job, hit.light, x);
-        });
-        // A factor to what the technique said of the light that was met: exactly 1 where its cap is
-        // the only one.
-        if (met > 0) batch.light_pdf[i] *= static_cast<T>((met + others) / met);
-        else batch.light_pdf[i] = static_cast<T>(others);
+        batch.light_pdf[i] = union_density(
+            *job.hierarchy, x, unit_direction(batch, row), batch.light[i], batch.light_pdf[i],
+            [&](LightIndex j) { return table.probability(job.place_of(j)); },
+            [&](LightIndex j) { return solid_angle_from(x, job.light(j)); });
     }
 }
 

@@ -16,11 +16,11 @@ namespace {
 constexpr std::array shown_figures{ChangingFigure::variance, ChangingFigure::efficiency,
                                    ChangingFigure::seconds_to_1_percent};
 
-/// "~±5%": no change is seen, and any lies within 5 %.
+/// "~<5%": no change is seen, and if there is one, it is smaller than 5 %.
 std::string unchanged(const Interval& ratio)
 {
     const double within = 100 * std::max(ratio.high - 1, 1 / ratio.low - 1);
-    return within < 999.5 ? fmt::format("~±{:.0f}%", std::ceil(within - 1e-9)) : "~";
+    return within < 999.5 ? fmt::format("~<{:.0f}%", std::ceil(within - 1e-9)) : "~";
 }
 
 std::string ratio_cell(const Change& change)
@@ -71,9 +71,23 @@ bool has_figures(const StrategyChange& s)
     return s.status_before == Status::ranked && s.status_after == Status::ranked;
 }
 
-std::string table(const SceneChange& scene)
+std::string legend(const SceneChange& scene, const TextLook& look)
 {
-    TextTable table({{"", "strategy", "variance", "efficiency", "time to 1 %", "mean"}});
+    const auto is_used = [&](const std::string& sign) {
+        return std::ranges::any_of(scene.strategies,
+                                   [&](const StrategyChange& s) { return mark(s) == sign; });
+    };
+    Legend legend;
+    legend.add(is_used("!"), "! worse");
+    legend.add(is_used("*"), "* changed");
+    legend.add(is_used("~"), "~ no change is seen; ~<9% it is below 9 % (95 %)");
+    return legend.text(look);
+}
+
+std::string table(const SceneChange& scene, const TextLook& look)
+{
+    TextTable table({{"", "strategy", "variance", "efficiency", "time to 1 %", "mean"}},
+                    {3, 5, 2, 4});
     for (const StrategyChange& s : scene.strategies) {
         if (!has_figures(s)) {
             table.add_remark(mark(s), s.name, remark(s));
@@ -84,7 +98,7 @@ std::string table(const SceneChange& scene)
         row.push_back(mean_cell(s[ChangingFigure::mean]));
         table.add(std::move(row));
     }
-    return scene.strategies.empty() ? "" : table.text();
+    return scene.strategies.empty() ? "" : table.text(look) + legend(scene, look);
 }
 
 std::string in_words(ChangingFigure figure)
@@ -114,12 +128,12 @@ std::string listed_figures(const StrategyChange& s, bool Change::*holds)
     return listed(all);
 }
 
-std::string sentences(const SceneChange& scene)
+std::string sentences(const SceneChange& scene, const TextLook& look)
 {
     std::string text;
     for (const StrategyChange& s : scene.strategies)
         if (const std::string all = listed_figures(s, &Change::is_changed); !all.empty())
-            text += wrapped(s.name + ": " + all + ".");
+            text += paragraph(s.name + ": " + all + ".", look);
     return text.empty() ? "" : "\n" + text;
 }
 
@@ -129,14 +143,15 @@ std::string title(const SceneChange& scene)
     return scene.name.empty() ? file : scene.name;
 }
 
-std::string scene_text(const SceneChange& scene)
+std::string scene_text(const SceneChange& scene, const TextLook& look)
 {
     const std::string name = title(scene);
     const std::string& file = scene.file_before.empty() ? scene.file_after : scene.file_before;
-    std::string text = wrapped(file == name || file.empty() ? name : name + " (" + file + ")");
-    for (const std::string& sentence : scene.remarks) text += wrapped(sentence);
-    if (!scene.strategies.empty()) text += "\n" + table(scene);
-    return text + sentences(scene);
+    std::string text =
+        paragraph(file == name || file.empty() ? name : name + " (" + file + ")", look);
+    for (const std::string& sentence : scene.remarks) text += paragraph(sentence, look);
+    if (!scene.strategies.empty()) text += "\n" + table(scene, look);
+    return text + sentences(scene, look);
 }
 
 bool times_changed(const Changes& changes)
@@ -150,46 +165,48 @@ bool times_changed(const Changes& changes)
     return false;
 }
 
-std::string summary(const Changes& changes)
+std::string summary(const Changes& changes, const TextLook& look)
 {
-    std::string text = wrapped(
-        fmt::format("{} compared, {} changed; at most {} that chance alone made any of these. ~: "
-                    "no change is seen; ~±9%: if there is one, it is below 9 % (95 %).",
-                    many(changes.comparisons, "figure"), changes.changed, percent(changes.error)));
+    std::string text = paragraph(
+        fmt::format("{} compared, {} changed; at most {} that chance alone made any of these.",
+                    many(changes.comparisons, "figure"), changes.changed, percent(changes.error)),
+        look);
     if (times_changed(changes))
-        text += wrapped(
+        text += paragraph(
             "Times also change with what else the machine was doing: each interval knows its own "
-            "run alone.");
+            "run alone.",
+            look);
     return text;
 }
 
-std::string regressions(const Changes& changes)
+std::string regressions(const Changes& changes, const TextLook& look)
 {
     if (!changes.worse_by) return "";
     const std::string limit = percent(*changes.worse_by);
     if (!changes.has_regression())
-        return wrapped("No regression: nothing is surely worse by more than " + limit + ".");
+        return paragraph("No regression: nothing is surely worse by more than " + limit + ".", look,
+                         Style::answer);
     std::string text =
-        wrapped("Regressions (worse by more than " + limit + ", biased, or another mean):");
+        paragraph("Regressions (worse by more than " + limit + ", biased, or another mean):", look);
     for (const SceneChange& scene : changes.scenes)
         for (const StrategyChange& s : scene.strategies) {
             if (!s.is_regression()) continue;
             std::string what = listed_figures(s, &Change::is_regression);
             if (s.is_newly_biased()) what = what.empty() ? "now biased" : "now biased; " + what;
-            text += wrapped(title(scene) + ": " + s.name + ": " + what + ".");
+            text += paragraph(title(scene) + ": " + s.name + ": " + what + ".", look);
         }
     return text;
 }
 
 }  // namespace
 
-std::string changes_text(const Changes& changes)
+std::string changes_text(const Changes& changes, const TextLook& look)
 {
     std::string text;
-    for (const std::string& sentence : changes.remarks) text += wrapped(sentence);
+    for (const std::string& sentence : changes.remarks) text += paragraph(sentence, look);
     for (const SceneChange& scene : changes.scenes)
-        text += (text.empty() ? "" : "\n") + scene_text(scene);
-    return text + (text.empty() ? "" : "\n") + summary(changes) + regressions(changes);
+        text += (text.empty() ? "" : "\n") + scene_text(scene, look);
+    return text + (text.empty() ? "" : "\n") + summary(changes, look) + regressions(changes, look);
 }
 
 }  // namespace mis

@@ -2,7 +2,7 @@
 
 #include "mis/io/atomic_file.h"
 #include "mis/io/json_writer.h"
-#include "mis/io/text_layout.h"
+#include "mis/words/numbers.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,26 +13,10 @@ namespace mis {
 
 namespace {
 
-/// Words in lines of 80 columns, behind a label.
-std::string paragraph(const std::string& label, const std::string& text)
+/// Words behind a label.
+std::string labelled(const std::string& label, const std::string& text)
 {
-    constexpr std::size_t width = 80, indent = 18;
-    std::string lines = fmt::format("{:<{}}", label, indent);
-    std::size_t column = indent;
-    std::size_t start = 0;
-    while (start < text.size()) {
-        const std::size_t end = std::min(text.find(' ', start), text.size());
-        const std::string word = text.substr(start, end - start);
-        if (column > indent && column + 1 + word.size() > width) {
-            lines += "\n" + std::string(indent, ' ');
-            column = indent;
-        }
-        if (column > indent) lines += " ", ++column;
-        lines += word;
-        column += word.size();
-        start = end + 1;
-    }
-    return lines + "\n";
+    return fmt::format("{:<18}{}\n", label, text);
 }
 
 std::string saving(const EffectPlan& effect)
@@ -54,6 +38,11 @@ std::string state(const EffectPlan& effect)
                             : "on";
 }
 
+std::string sees(std::size_t points)
+{
+    return fmt::format("{} {}", points, points == 1 ? "sees" : "see");
+}
+
 /// How many points there are, why some are dark, and whose normals lean away.
 std::string points_text(const Explanation& found)
 {
@@ -66,48 +55,48 @@ std::string points_text(const Explanation& found)
     give(found.counts.seen_from_below, "seen from below");
     give(found.counts.inside_light, "inside a light");
     give(found.counts.facing_no_light, "facing none");
-    if (!reasons.empty()) text += fmt::format("; {} see no light: {}", found.dark_points, reasons);
+    if (!reasons.empty())
+        text += fmt::format("; {} no light: {}", sees(found.dark_points), reasons);
     if (found.counts.turned_normals > 0)
         text += fmt::format(
-            "; of {} the shading normal leans away from the viewer and is turned to him, {} of "
-            "these see no light",
-            found.counts.turned_normals, found.counts.turned_and_dark);
+            "; of {} the shading normal leans away from the viewer and is turned to him, of these "
+            "{} no "
+            "light",
+            found.counts.turned_normals, sees(found.counts.turned_and_dark));
     return text;
 }
 
 }  // namespace
 
-std::string explanation_text(const Explanation& found)
+std::string explanation_text(const Explanation& found, const TextLook& look)
 {
-    std::string text = paragraph(
+    std::string text = labelled(
         "scene", printable(found.name.empty() ? found.file : found.name + " (" + found.file + ")"));
     std::string lights = many(found.lights, "light");
     if (found.black_lights > 0) lights += fmt::format(", {} of them black", found.black_lights);
     lights += fmt::format("; radius {:.4g} to {:.4g}, power {:.4g} to {:.4g} W (luminance)",
                           found.radius.low, found.radius.high, found.power.low, found.power.high);
-    text += paragraph("lights", lights);
-    text += paragraph(
-        "surfaces",
-        many(found.quads, "quad") + ", " + many(found.spheres, "sphere") + ", " +
-            fmt::format("{} {} of ", found.meshes, found.meshes == 1 ? "mesh" : "meshes") +
-            many(found.triangles, "triangle"));
+    text += labelled("lights", lights);
+    text += labelled("surfaces", many(found.quads, "quad") + ", " + many(found.spheres, "sphere") +
+                                     ", " + fmt::format("{} of ", many(found.meshes, "mesh")) +
+                                     many(found.triangles, "triangle"));
     if (found.width > 0)
-        text +=
-            paragraph("picture", fmt::format("{} x {} pixels, of which {} show no surface",
-                                             found.width, found.height, found.background_pixels));
-    if (found.probes > 0) text += paragraph("probes", std::to_string(found.probes));
-    text += paragraph("shading points", points_text(found));
+        text += labelled("picture", fmt::format("{} x {} pixels, of which {} {} no surface",
+                                                found.width, found.height, found.background_pixels,
+                                                found.background_pixels == 1 ? "shows" : "show"));
+    if (found.probes > 0) text += labelled("probes", std::to_string(found.probes));
+    text += labelled("shading points", points_text(found));
     for (const MaterialUse& material : found.materials)
-        text += paragraph("material",
-                          fmt::format("{} ({}), {}", printable(material.name), material.type,
-                                      many(material.shading_points, "point")));
-    text += paragraph("memory", fmt::format("lights {:.3g} MB, hierarchy over them {:.3g} MB",
-                                            static_cast<double>(found.light_bytes) / 1e6,
-                                            static_cast<double>(found.hierarchy_bytes) / 1e6));
+        text +=
+            labelled("material", fmt::format("{} ({}), {}", printable(material.name), material.type,
+                                             many(material.shading_points, "point")));
+    text += labelled("memory", fmt::format("lights {:.3g} MB, hierarchy over them {:.3g} MB",
+                                           static_cast<double>(found.light_bytes) / 1e6,
+                                           static_cast<double>(found.hierarchy_bytes) / 1e6));
     text += "\n";
     for (const EffectPlan& effect : found.effects)
-        text += paragraph(effect.name, state(effect) + ": " + effect.why + saving(effect));
-    return text;
+        text += labelled(effect.name, state(effect) + ": " + effect.why + saving(effect));
+    return fitted(text, look.columns);
 }
 
 void write_explanation_json(const Explanation& found, const RunHeader& run, const std::string& path)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/io/text_layout.h"
 #include "mis/report/explanation.h"
 
 #include <cstdint>
@@ -14,8 +15,8 @@ struct RunHeader {
     int threads = 1;
 };
 
-/// As a terminal shows it: 80 columns.
-std::string explanation_text(const Explanation& found);
+/// As a terminal shows it.
+std::string explanation_text(const Explanation& found, const TextLook& look = {});
 
 /// As `mis-explain/1`: the outer shape of mis-report/1. "-" is standard output. Throws WriteError.
 void write_explanation_json(const Explanation& found, const RunHeader& run,

@@ -2,6 +2,7 @@
 
 #include "mis/io/obj_words.h"
 #include "mis/io/text_file.h"
+#include "mis/scene/text.h"
 
 #include <fmt/format.h>
 
@@ -87,7 +88,7 @@ private:
             if (count < numbers_.size()) numbers_[count] = number;
         if (count < least || count > most)
             words_.fail_at(line, column,
-                           {"", fmt::format("{} with {} numbers", in_quotes(name), count),
+                           {"", in_quotes(name) + " with " + many(count, "number"),
                             least == most ? fmt::format("{} has {} numbers", in_quotes(name), least)
                                           : fmt::format("{} has {} to {} numbers", in_quotes(name),
                                                         least, most),
@@ -181,7 +182,7 @@ private:
         if (corners_.size() < 3)
             words_.fail_at(
                 line, column,
-                {"", fmt::format("a face with {} corners", corners_.size()),
+                {"", "a face with " + many(corners_.size(), "corner"),
                  "a face has at least 3 corners", "Mend the file: it may have been cut short."});
         const auto is_known = [&](const ObjCorner& corner) { return !missing_of(corner); };
         if (std::all_of(corners_.begin(), corners_.end(), is_known)) add_polygon(corners_);

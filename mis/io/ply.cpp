@@ -3,6 +3,7 @@
 #include "mis/io/ply_schema.h"
 #include "mis/io/ply_values.h"
 #include "mis/io/text_file.h"
+#include "mis/scene/text.h"
 
 #include <fmt/format.h>
 
@@ -72,7 +73,7 @@ private:
             return;
         }
         if (count < 3 && !is_strip_)
-            values_.fail_at_last(fmt::format("a face with {} corners", count),
+            values_.fail_at_last("a face with " + many(count, "corner"),
                                  "a face has at least 3 corners");
         indices_.clear();
         for (std::size_t i = 0; i < count; ++i) indices_.push_back(index(property.type));
@@ -104,9 +105,8 @@ private:
             return static_cast<std::uint32_t>(index);
         if (is_strip_ && (index == -1 || index == unsigned_minus_one(type))) return strip_end;
         values_.fail_at_last(fmt::format("the index {}, which is out of range", index),
-                             fmt::format("an index is a whole number; the file has {} vertices, "
-                                         "counted from 0",
-                                         vertex_count_));
+                             "an index is a whole number; the file has " +
+                                 many(vertex_count_, "vertex") + ", counted from 0");
     }
 
     /// What -1 becomes where the type has no sign.

@@ -3,6 +3,7 @@
 #include "mis/io/mesh_builder.h"
 #include "mis/io/scene_error.h"
 #include "mis/io/text_file.h"
+#include "mis/scene/text.h"
 
 #include <fmt/format.h>
 
@@ -61,7 +62,7 @@ void require_properties(const PlyElement& element, const std::filesystem::path& 
                        "a face or strip has one list, vertex_indices or vertex_index");
     if (element.name != "vertex") return;
     if (element.count >= MeshCorner::no_normal)
-        fail_on_header(file, fmt::format("{} vertices", element.count),
+        fail_on_header(file, many(element.count, "vertex"),
                        fmt::format("a mesh has less than {} vertices", MeshCorner::no_normal));
     if (count_of(element, 0) != 3)
         fail_on_header(file, name + " without x, y or z", "a vertex has x, y and z");
@@ -80,16 +81,13 @@ void require_elements(const PlyHeader& header, const std::filesystem::path& file
                        "a mesh has the elements vertex, and face or tristrips");
 }
 
-/// Bytes that a row takes at least; in text a digit and a blank or line end for each number.
+/// Bytes that a row takes at least, with empty lists: a face with too few corners is read, and
+/// refused as such. In text a digit and a blank or line end for each number.
 std::size_t least_bytes(const PlyElement& element, bool is_text)
 {
-    constexpr std::size_t least_corners = 3;
     std::size_t bytes = 0;
-    for (const PlyProperty& p : element.properties) {
-        const auto bytes_as = [&](PlyType type) { return is_text ? 2 : bytes_of(type); };
-        bytes += bytes_as(p.count_type.value_or(p.type));
-        if (element.name == "face" && is_index_list(p)) bytes += least_corners * bytes_as(p.type);
-    }
+    for (const PlyProperty& p : element.properties)
+        bytes += is_text ? 2 : bytes_of(p.count_type.value_or(p.type));
     return bytes;
 }
 
@@ -104,9 +102,8 @@ void require_long_enough(const PlyHeader& header, std::size_t there,
     least -= is_text && least > 0 ? 1 : 0;  // the last line may do without its end
     if (there < least)
         fail_on_header(file,
-                       fmt::format("a PLY file that ends early: {} of at least {} bytes after its "
-                                   "header",
-                                   there, least),
+                       fmt::format("a PLY file that ends early: {} of at least {} after its header",
+                                   there, many(least, "byte")),
                        "a body is as long as its header says");
 }
 

@@ -4,6 +4,7 @@
 #include "mis/io/scene_error.h"
 #include "mis/io/text_file.h"
 #include "mis/io/text_words.h"
+#include "mis/scene/text.h"
 
 #include <fmt/format.h>
 
@@ -51,8 +52,9 @@ void PlyRows::fail(std::string place, std::string found, std::string allowed) co
 void PlyRows::fail_early_end() const
 {
     fail("",
-         fmt::format("a PLY file that ends early: {} of {} rows of {} are there", row_,
-                     element_->count, in_quotes(element_->name)),
+         fmt::format("a PLY file that ends early: {} of {} of {} {} there", row_,
+                     many(element_->count, "row"), in_quotes(element_->name),
+                     row_ == 1 ? "is" : "are"),
          "a body is as long as its header says");
 }
 
@@ -97,7 +99,7 @@ void BinaryPlyValues::require_end()
     for (std::string_view rest; !(rest = source_.bytes(1)).empty();)
         if (!is_blank(rest[0]))
             fail(fmt::format("byte {}", begin),
-                 fmt::format("{} bytes after the last row", source_.size() - begin),
+                 many(source_.size() - begin, "byte") + " after the last row",
                  "a body is as long as its header says");
 }
 

@@ -3,9 +3,11 @@
 #include "mis/io/csv_field.h"
 #include "mis/io/json_parts.h"
 #include "mis/io/text_layout.h"
+#include "mis/words/predict_remarks.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -45,6 +47,26 @@ OrderedJson strategy_json(const PredictReport::Scene& scene, std::size_t i)
     return json;
 }
 
+PredictedVariances variances_of(const PredictReport::Scene& scene)
+{
+    PredictedVariances found;
+    found.all_probes = scene.probes.size();
+    for (const Strategy& strategy : scene.strategies) found.strategies.push_back(name_of(strategy));
+    for (std::size_t p = 0; p < scene.probes.size(); ++p) {
+        if (!scene.probes[p].refusal.empty()) continue;
+        PredictedVariances::AtProbe& probe = found.probes.emplace_back();
+        probe.number = p;
+        for (const Predicted& f : scene.probes[p].figures) {
+            probe.means.push_back(f.mean);
+            const bool is_finite = std::isfinite(f.variance);
+            probe.variances.push_back(
+                {f.variance, is_finite ? std::max(0.0, f.variance - f.variance_error) : f.variance,
+                 f.variance + f.variance_error});
+        }
+    }
+    return found;
+}
+
 /// Ten places at most.
 std::string shown(double value)
 {
@@ -74,7 +96,8 @@ std::string predict_json(const PredictReport& report)
         json["scenes"].push_back({{"file", scene.file},
                                   {"name", scene.name},
                                   {"lights", scene.lights},
-                                  {"strategies", strategies}});
+                                  {"strategies", strategies},
+                                  {"sentences", sentences_of(variances_of(scene))}});
     }
     return json_text(json);
 }
@@ -99,9 +122,9 @@ std::string predict_csv(const PredictReport& report)
     return csv;
 }
 
-std::string predict_text(const PredictReport::Scene& scene)
+std::string predict_text(const PredictReport::Scene& scene, const TextLook& look)
 {
-    TextTable table({{"probe", "strategy", "mean", "error", "variance", "error"}});
+    TextTable table({{"probe", "strategy", "mean", "error", "variance", "error"}}, {3, 5, 2});
     for (std::size_t p = 0; p < scene.probes.size(); ++p) {
         const PredictReport::Probe& probe = scene.probes[p];
         if (!probe.refusal.empty()) {
@@ -115,10 +138,14 @@ std::string predict_text(const PredictReport::Scene& scene)
                        shown_error(f.variance_error)});
         }
     }
-    std::string text = table.text();
+    std::string text = table.text(look);
     for (std::size_t p = 0; p < scene.probes.size(); ++p)
         if (!scene.probes[p].refusal.empty())
-            text += fmt::format("probe {}: {}\n", p, scene.probes[p].refusal);
+            text += fitted(fmt::format("probe {}: {}\n", p, scene.probes[p].refusal), look.columns);
+    const std::vector<std::string> answer = sentences_of(variances_of(scene));
+    if (!answer.empty()) text += "\n";
+    for (const std::string& sentence : answer)
+        text += paragraph(sentence, look, &sentence == &answer[0] ? Style::answer : Style::plain);
     return text;
 }
 

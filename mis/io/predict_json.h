@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/io/text_layout.h"
 #include "mis/predict/predict.h"
 
 #include <string>
@@ -37,7 +38,7 @@ std::string predict_json(const PredictReport& report);
 /// 4180). What is beyond a double, or refused, is empty.
 std::string predict_csv(const PredictReport& report);
 
-/// As a terminal shows it.
-std::string predict_text(const PredictReport::Scene& scene);
+/// As a terminal shows it: a table, and at its end which strategy has the least variance.
+std::string predict_text(const PredictReport::Scene& scene, const TextLook& look = {});
 
 }  // namespace mis

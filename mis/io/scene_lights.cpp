@@ -28,7 +28,7 @@ void require_valid(const JsonNode& entry, const Vec3<double>& center, double rad
 void require_room(const JsonNode& entry, std::size_t more, const Lights& lights)
 {
     if (more <= limits::lights - lights.size()) return;
-    entry.fail(fmt::format("{} lights, after {} before", more, lights.size()),
+    entry.fail(fmt::format("{}, after {} before", many(more, "light"), lights.size()),
                fmt::format("a scene has at most {} lights", limits::lights), "Split the scene.");
 }
 

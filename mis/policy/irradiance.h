@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/policy/seen_irradiance.h"
+#include "mis/policy/weight_table.h"
 
 namespace mis {
 
@@ -11,6 +12,8 @@ public:
     static constexpr std::string_view name = "irradiance";
     static constexpr std::string_view summary =
         "in proportion to radiance x irradiance of the cap above the horizon";
+    /// Without a lobe it is `product`.
+    static constexpr bool ranked_by_default(std::size_t, bool has_lobes) { return has_lobes; }
     static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr bool weighs_by_irradiance = true;
     static constexpr std::size_t table_bytes(std::size_t lights)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/policy/seen_product.h"
+#include "mis/policy/weight_table.h"
 
 namespace mis {
 
@@ -12,6 +13,7 @@ public:
     static constexpr std::string_view name = "product";
     static constexpr std::string_view summary =
         "in proportion to radiance x what diffuse part and lobe reflect of the cap";
+    static constexpr bool ranked_by_default(std::size_t, bool) { return true; }
     static constexpr bool draws_every_light = false, reads_all_lights = true;
     static constexpr bool weighs_by_irradiance = true;  ///< where there is no lobe
     static constexpr std::size_t table_bytes(std::size_t lights)

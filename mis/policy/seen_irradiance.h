@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mis/policy/light_choice.h"
+#include "mis/policy/seen_light.h"
 
 namespace mis {
 

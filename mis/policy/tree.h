@@ -18,6 +18,8 @@ public:
     static constexpr std::string_view name = "tree";
     static constexpr std::string_view summary =
         "nearly as product, by a hierarchy over the lights: O(log M)";
+    /// Of few lights it opens all groups, and is `product`.
+    static constexpr bool ranked_by_default(std::size_t lights, bool) { return lights > 32; }
     static constexpr bool draws_every_light = false, reads_all_lights = false,
                           draws_go_together = true;
     /// Groups opened at a point: of up to some 330 lights all, where `tree` is `product`.

@@ -70,13 +70,16 @@ private:
     bool describe(double theta, const std::vector<char>& held, Meridian& out,
                   Stretch& stretch) const;
 
+    /// Places in circles_.
+    static constexpr std::size_t own = 0, horizon = 1;
+
     const Sky* sky_;
     int light_;
     Polar polar_;
     Lobe lobe_;
     bool pole_is_lobe_ = false;
-    std::vector<int> lights_, walls_;  ///< walls: surfaces that the point is inside of
-    std::vector<Circle> circles_;      ///< [0]: the own cap, [1]: the horizon, then the neighbours'
+    std::vector<int> lights_, walls_;   ///< walls: surfaces that the point is inside of
+    std::vector<Circle> circles_;       ///< own, horizon, then the neighbours'
     std::vector<Vec3<double>> deltas_;  ///< of the circles' axes from the pole
     std::vector<int> local_of_circle_;  ///< number in lights_, −1 for none
     std::vector<bool> smaller_;         ///< is the circle's cap that of a smaller light?

@@ -71,6 +71,17 @@ struct ReplicatesDiffer {
     double error = 0, largest = 0;
 };
 
+/// Shared directions find no variance that is above so many of its standard errors: it is bounded.
+struct BelowErrors {
+    bool relative = false;  ///< the relative variance
+    double errors = 3;
+};
+
+/// It never draws directions that carry this share of the light.
+struct NeverDraws {
+    double share = 0;
+};
+
 /// Its mean is not the others'.
 struct MeanDiffers {
     int region = -1;  ///< −1: over the whole image
@@ -79,6 +90,7 @@ struct MeanDiffers {
     double p_value = 1;  ///< corrected
     bool are_only_two = false;
     bool may_lack_rare_samples = false;
+    bool beside_shared = false;  ///< the reference is that of shared directions, not of the others
 };
 
 // Of a curve of `mis cost` that has no points.
@@ -108,11 +120,11 @@ struct NothingLit {};
 
 }  // namespace reason
 
-using Reason =
-    std::variant<reason::None, reason::AsWritten, reason::Stopped, reason::PastBudget,
-                 reason::NotReady, reason::LateSetUp, reason::AuditFails, reason::NeverVaries,
-                 reason::FewReplicates, reason::NotFinite, reason::RoundingAlone,
-                 reason::CarriedByFew, reason::ReplicatesDiffer, reason::MeanDiffers>;
+using Reason = std::variant<reason::None, reason::AsWritten, reason::Stopped, reason::PastBudget,
+                            reason::NotReady, reason::LateSetUp, reason::AuditFails,
+                            reason::NeverVaries, reason::FewReplicates, reason::NotFinite,
+                            reason::RoundingAlone, reason::CarriedByFew, reason::ReplicatesDiffer,
+                            reason::BelowErrors, reason::NeverDraws, reason::MeanDiffers>;
 
 using CostReason = std::variant<reason::None, reason::Stopped, reason::FirstDoublingLate,
                                 reason::DoublingsTooDear, reason::NoFirstLook,

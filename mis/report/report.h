@@ -6,6 +6,7 @@
 #include "mis/report/setup_seconds.h"
 #include "mis/report/strategy_report.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,8 +25,17 @@ template <class Visitor, Either<EffectPlan> S> void describe(Visitor& v, S& effe
 
 struct SceneReport : SceneFacts {
     int replicates = 0;
-    double epsilon = 0;  ///< of the relative variance
-    bool settled = false, partial = false;
+    std::uint64_t directions = 0;  ///< per point, that all strategies share; 0: none
+    double epsilon = 0;            ///< of the relative variance
+    bool decided = false;          ///< the leader is at most `most_behind` behind every other
+    std::string leader;            ///< the strategy to use; empty where none is ranked
+    /// The same among those that draw one light per sample, or none.
+    bool decided_of_one_light = false;
+    std::string leader_of_one_light;
+    /// Wall seconds more that would decide, about; 0 if it is decided, NaN where that is not known.
+    double seconds_to_decide = std::numeric_limits<double>::quiet_NaN();
+    bool settled = false;  ///< decided, and every ranked variance is known to ± 25 %
+    bool partial = false;
     bool lacks_audit = false;            ///< for rare samples that were never drawn
     bool had_no_time_for_audit = false;  ///< that is why; else that its samples are sequences
     double seconds = 0;                  ///< wall
@@ -42,7 +52,13 @@ void describe(Visitor& v, S& scene, const Run& run)
 {
     describe_facts(v, scene);
     v.count(Field("replicates"), scene.replicates);
+    v.count(Field("directions").later(), scene.directions);
     v.size(Field("epsilon", unit::luminance), scene.epsilon);
+    v.flag(Field("decided").later(), scene.decided);
+    v.text_or_null(Field("leader").later(), scene.leader);
+    v.flag(Field("decided_of_one_light").later(), scene.decided_of_one_light);
+    v.text_or_null(Field("leader_of_one_light").later(), scene.leader_of_one_light);
+    v.size(Field("seconds_to_decide", unit::wall_seconds).later(), scene.seconds_to_decide);
     v.flag(Field("settled"), scene.settled);
     v.flag(Field("lacks_audit").later(), scene.lacks_audit, run.is_sobol);
     v.flag(Field("had_no_time_for_audit").later(), scene.had_no_time_for_audit);

@@ -25,6 +25,12 @@ constexpr std::array<const char*, 4> names_of(Status)
     return {"not_run", "not_resolved", "biased", "ranked"};
 }
 
+/// What a variance is measured by: a strategy's own samples, or directions that all strategies
+/// share (docs/theory.md §25).
+enum class VarianceSource { own, shared };
+
+constexpr std::array<const char*, 2> names_of(VarianceSource) { return {"own", "shared"}; }
+
 /// One shading point's (a probe's) figures.
 struct PointFigures {
     double mean = 0, mean_se = 0;  ///< luminance
@@ -64,9 +70,15 @@ struct StrategyReport {
     bool exact = false;                         ///< zero variance, proved
     int rank = 0, rank_low = 0, rank_high = 0;  ///< by variance; 0 where not ranked
     int rank_by_efficiency = 0, rank_by_efficiency_low = 0, rank_by_efficiency_high = 0;
-    std::vector<std::string> tied_with;           ///< names, by variance
-    std::uint64_t samples = 0;                    ///< over all shading points
-    double mean = 0, mean_se = 0;                 ///< luminance, over the shading points
+    std::vector<std::string> tied_with;  ///< names, by variance
+    /// By time to 1 %, or without times by variance (stats/decision.h); for all strategies
+    /// together.
+    bool may_be_best = false;
+    /// The share by which it may be behind the best at most; NaN where nothing is known.
+    double behind_at_most = std::numeric_limits<double>::quiet_NaN();
+    std::uint64_t samples = 0;     ///< of its own, over all shading points
+    double mean = 0, mean_se = 0;  ///< luminance, over the shading points
+    VarianceSource variance_from = VarianceSource::own;
     Interval variance;                            ///< of one sample (docs/theory.md (70) where
                                                   ///< is_sobol); mean over the shading points
     Interval relative_variance;                   ///< design §1
@@ -85,8 +97,10 @@ struct StrategyReport {
     double resolving_factor = 1;  ///< about how many times as many samples would resolve it; 1
                                   ///< where it is, NaN where it is not known
     AuditedGrowth least_growth;
-    double effective_samples =
-        0;  ///< how many samples carry the variance (stats/measurements.h, Participation)
+    /// How many samples carry the variance: about 1 over its squared relative standard error. Of
+    /// own samples by their participation (stats/measurements.h), of shared directions by that
+    /// error.
+    double effective_samples = 0;
     std::uint64_t invalid_samples = 0;
     std::optional<SampleName> first_invalid;  ///< where there are any, and it is known
     std::vector<PointFigures> probes;
@@ -102,6 +116,8 @@ template <class Visitor, Either<StrategyReport> S> void describe(Visitor& v, S& 
     v.place(Field("rank_low"), s.rank_low);
     v.place(Field("rank_high"), s.rank_high);
     v.names(Field("tied_with"), s.tied_with);
+    v.flag(Field("may_be_best").later(), s.may_be_best);
+    v.size(Field("behind_at_most").later(), s.behind_at_most);
     v.place(Field("rank_by_efficiency"), s.rank_by_efficiency);
     v.place(Field("rank_by_efficiency_low"), s.rank_by_efficiency_low);
     v.place(Field("rank_by_efficiency_high"), s.rank_by_efficiency_high);
@@ -109,6 +125,7 @@ template <class Visitor, Either<StrategyReport> S> void describe(Visitor& v, S& 
     v.figure(Field("mean", unit::luminance), s.mean);
     v.size(Field("mean_se", unit::luminance), s.mean_se);
     v.size(Field("bias_p_value"), s.bias_p_value);
+    v.one_of(Field("variance_from").later(), s.variance_from, names_of(s.variance_from));
     v.interval(Field("variance", unit::luminance2), s.variance);
     v.interval(Field("relative_variance"), s.relative_variance);
     v.size(Field("rare_share"), s.rare_share);

@@ -29,25 +29,45 @@ std::size_t edit_distance(std::string_view a, std::string_view b)
     return last[b.size()];
 }
 
+/// An option's name: what is typed before every one of them makes no two alike.
+std::string_view without_dashes(std::string_view name)
+{
+    return name.substr(std::min(name.find_first_not_of('-'), name.size()));
+}
+
+/// How many letters may be wrong: a third of them.
+std::size_t most_wrong(std::string_view typed)
+{
+    return std::max<std::size_t>(1, (typed.size() + 1) / 3);
+}
+
+/// Is one the beginning of the other, and long enough to tell?
+bool goes_on(std::string_view typed, std::string_view name)
+{
+    const std::size_t shared = std::min(typed.size(), name.size());
+    return shared >= 3 && edit_distance(typed.substr(0, shared), name.substr(0, shared)) == 0;
+}
+
 }  // namespace
 
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> known)
 {
     constexpr std::size_t longest = 64;  // what is longer is no misspelt name of ours
-    if (typed.empty() || typed.size() > longest) return {};
+    const std::string_view word = without_dashes(typed);
+    if (word.empty() || word.size() > longest) return {};
     std::string_view nearest;
-    std::size_t least =
-        std::max<std::size_t>(1, typed.size() / 2) + 1;  // as much wrong as right: no offer
-    for (const std::string_view name : known) {
-        const std::size_t distance = edit_distance(typed, name);
-        if (distance < least && distance < name.size()) least = distance, nearest = name;
+    std::size_t least = most_wrong(word) + 1;
+    for (const std::string_view each : known) {
+        const std::string_view name = without_dashes(each);
+        const std::size_t distance = edit_distance(word, name);
+        if (distance < least && distance < name.size()) least = distance, nearest = each;
     }
-    if (nearest.empty() && typed.size() >= 3)  // or a name that was not written to its end
-        for (const std::string_view name : known)
-            if (edit_distance(typed, name.substr(0, typed.size())) == 0) {
-                if (!nearest.empty()) return {};
-                nearest = name;
-            }
+    if (!nearest.empty()) return nearest;
+    for (const std::string_view each : known)  // or a name that was not written to its end
+        if (goes_on(word, without_dashes(each))) {
+            if (!nearest.empty()) return {};
+            nearest = each;
+        }
     return nearest;
 }
 

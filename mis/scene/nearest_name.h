@@ -7,8 +7,9 @@
 namespace mis {
 
 /// The name that was probably meant by `typed`: the nearest by edit distance (insert, delete,
-/// replace, swap neighbours; capitals do not count), if it is near enough to be worth offering, or
-/// else the only one that begins so; empty if none is. A tie goes to the first.
+/// replace, swap neighbours; capitals and leading dashes do not count) if at most a third of the
+/// letters is wrong. Else the only one that begins so, or that `typed` begins with; empty if there
+/// is none. A tie goes to the first.
 std::string_view nearest_name(std::string_view typed, std::span<const std::string_view> known);
 
 /// `Did you mean "lambert"?`, or `otherwise` where no known name is near.

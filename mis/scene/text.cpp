@@ -24,6 +24,23 @@ std::string to_text(const Vec3<double>& v)
     return "[" + to_text(v.x) + ", " + to_text(v.y) + ", " + to_text(v.z) + "]";
 }
 
+std::string noun(std::size_t count, std::string_view what)
+{
+    const std::string one(what);
+    if (count == 1) return one;
+    const auto without = [&](std::size_t letters) { return one.substr(0, one.size() - letters); };
+    if (what.ends_with("ex")) return without(2) + "ices";
+    const bool is_y = what.size() > 1 && what.ends_with('y') &&
+                      std::string_view("aeiou").find(what[what.size() - 2]) == what.npos;
+    if (is_y) return without(1) + "ies";
+    return one + (what.ends_with("sh") || what.ends_with('s') ? "es" : "s");
+}
+
+std::string many(std::size_t count, std::string_view what)
+{
+    return to_text(count) + " " + noun(count, what);
+}
+
 std::string pointer_token(std::string_view name)
 {
     std::string token;

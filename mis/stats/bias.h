@@ -51,4 +51,14 @@ bool may_lack_rare_samples(const BiasFinding& finding, const StrategyMeasurement
 std::vector<BiasFinding> find_bias(std::span<const StrategyMeasurements* const> strategies,
                                    double error);
 
+/// The same by the mean of shared directions, where each strategy has mean_checks: over the image
+/// and in each region. The error of its own mean is by its true variance, so that it may be low by
+/// rare samples without being called so; it is called high only where many samples carry that.
+std::vector<BiasFinding> find_bias_beside_shared(
+    std::span<const StrategyMeasurements* const> strategies, double error);
+
+/// The least bias of the image's mean, relative to it, that such a test would all but surely find
+/// at that error; NaN where nothing is known.
+double least_detectable_bias(const StrategyMeasurements& strategy, double error);
+
 }  // namespace mis

@@ -45,6 +45,12 @@ LogEstimate product(const LogEstimate& a, const LogEstimate& b)
     return {a.value + b.value, std::sqrt(v), dof};
 }
 
+LogEstimate turned_over(LogEstimate estimate)
+{
+    estimate.value = -estimate.value;
+    return estimate;
+}
+
 LogEstimate log_contrast(std::span<const double> a, double weight_a, std::span<const double> b,
                          double weight_b)
 {
@@ -77,18 +83,18 @@ double mean_of_totals(const RegionSums& figure)
 
 }  // namespace
 
-LogEstimate log_contrast(const RegionSums& a, const RegionSums& b)
+LogEstimate log_contrast(const RegionSums& a, double weight_a, const RegionSums& b, double weight_b)
 {
     const std::size_t n = b.empty() ? a.size() : std::min(a.size(), b.size());
     const double mean_a = mean_of_totals(a), mean_b = b.empty() ? 1 : mean_of_totals(b);
-    const double ratio = mean_b != 0 ? mean_a / mean_b : mean_a * inverse(mean_b);
-    LogEstimate contrast{std::log(ratio), nan, n > 0 ? as_double(n - 1) : 0};
+    LogEstimate contrast{weight_a * std::log(mean_a) - weight_b * std::log(mean_b), nan,
+                         n > 0 ? as_double(n - 1) : 0};
     if (n < 2 || !(mean_a > 0) || !(mean_b > 0)) return contrast;
     double variance = 0, squares = 0;
     std::vector<double> shares(n);
     for (std::size_t g = 0; g < a[0].size(); ++g) {
         for (std::size_t r = 0; r < n; ++r)
-            shares[r] = a[r][g] / mean_a - (b.empty() ? 0 : b[r][g] / mean_b);
+            shares[r] = weight_a * a[r][g] / mean_a - (b.empty() ? 0 : weight_b * b[r][g] / mean_b);
         const double v = std::pow(mean_and_error(shares).se, 2);
         variance += v, squares += v * v;
     }
@@ -146,6 +152,11 @@ double upper_tail(double t, double dof)
 double t_quantile(double tail, double dof)
 {
     return boost::math::quantile(complement(boost::math::students_t(dof), tail));
+}
+
+bool is_above_errors(const LogEstimate& log_figure)
+{
+    return std::isfinite(log_figure.value) && 3 * log_figure.se <= 1;
 }
 
 double two_sided_p(const LogEstimate& estimate, double at)

@@ -11,6 +11,9 @@ namespace mis {
 /// and Satterthwaite (1946).
 LogEstimate product(const LogEstimate& a, const LogEstimate& b);
 
+/// Of one over the figure.
+LogEstimate turned_over(LogEstimate estimate);
+
 /// weight_a·log(mean of a) − weight_b·log(mean of b), over the same replicates; each half only
 /// where its weight is not 0. The error is the jackknife's over the replicates (Miller 1974). It is
 /// that of the logarithm of the mean, where the mean of the replicates' logarithms would be too low
@@ -23,11 +26,18 @@ LogEstimate log_contrast(std::span<const double> a, double weight_a, std::span<c
 /// independent.
 using RegionSums = std::vector<std::vector<double>>;
 
-/// log(mean of a) − log(mean of b), over the same replicates and regions; `b` may be empty, for
-/// log(mean of a) alone. The error is added up region by region, which makes far more degrees of
-/// freedom than the replicates' totals have (docs/theory.md, §15; Satterthwaite 1946): the samples
-/// of one region say nothing of another's. Unknown for fewer than two replicates or a mean of 0.
-LogEstimate log_contrast(const RegionSums& a, const RegionSums& b);
+/// weight_a·log(mean of a) − weight_b·log(mean of b), over the same replicates and regions; `b` may
+/// be empty, for log(mean of a) alone. The error is added up region by region, which makes far more
+/// degrees of freedom than the replicates' totals have (docs/theory.md, §15; Satterthwaite 1946):
+/// the samples of one region say nothing of another's. Unknown for fewer than two replicates or a
+/// mean of 0.
+LogEstimate log_contrast(const RegionSums& a, double weight_a, const RegionSums& b,
+                         double weight_b);
+/// With weights of 1.
+inline LogEstimate log_contrast(const RegionSums& a, const RegionSums& b)
+{
+    return log_contrast(a, 1, b, 1);
+}
 
 /// log(mean of replicates), with its jackknife error.
 LogEstimate log_mean(std::span<const double> replicates);
@@ -42,6 +52,10 @@ LogEstimate log_median(const std::vector<double>& values);
 
 /// The median and its 95 % interval, not below 0; NaN bounds where the error is not known.
 Interval interval_of_median(std::vector<double> values);
+
+/// Is the figure, whose logarithm this is, at least three of its standard errors above 0? Else its
+/// logarithm says little.
+bool is_above_errors(const LogEstimate& log_figure);
 
 /// P(|T| ≥ |value − at| / se): how surprising the estimate is if the truth is `at`. 1 where the
 /// error is not known.

@@ -10,7 +10,7 @@ double squared(double x) { return x * x; }
 /// Do the samples of every point agree with one another?
 bool do_samples_agree(const PooledFigures& pooled, double over_all, double at_a_point)
 {
-    return pooled.relative_variance <= squared(over_all) &&
+    return pooled.single_points == 0 && pooled.relative_variance <= squared(over_all) &&
            pooled.largest_relative_variance <= squared(at_a_point);
 }
 

@@ -4,6 +4,7 @@
 #include "mis/stats/estimate.h"
 #include "mis/stats/measurements.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -17,9 +18,14 @@ inline constexpr double one_percent_squared = 1e-4;
 struct Figures {
     bool exact = false;  ///< variance 0, proved
     double variance = 0, relative_variance = 0;
-    std::vector<double> relative_variances;  ///< per replicate
+    bool is_shared = false;  ///< by directions that strategies share: replicates are turns of those
+    std::vector<double> relative_variances;  ///< per replicate, where not
+    LogEstimate relative_log;                ///< of the relative variance by itself: its error
     double relative_doubt = 0;  ///< half width, of its logarithm: what the estimated μ may do to it
+    double signed_doubt = 0;    ///< the same with its sign, where is_shared
     RegionSums variances;       ///< per replicate and region
+    RegionSums relative_by_region;      ///< the same of the relative variance, where is_shared
+    std::vector<std::uint32_t> rounds;  ///< [observation of time]
     std::vector<double>
         seconds_at;  ///< per observation: seconds per sample, with its part of a point at n samples
     std::vector<double> seconds_to_1_percent;  ///< per observation: CPU seconds per point
@@ -35,13 +41,16 @@ struct TimeIntervals {
 };
 TimeIntervals intervals_of(std::span<const TimeObservation> times);
 
+/// What shared directions know of the relative variance's logarithm. NaN where it is not above 0.
+LogEstimate relative_log(const SharedFigures& shared);
+
 /// at: samples per point that a point's preparation is shared by.
 Figures figures_of(const StrategyMeasurements& strategy, double at);
 
-/// Takes out of the observed times what slowed all strategies of a round alike, and finds the noise
-/// that is left, from all strategies together (two-way analysis of variance of log(seconds)): a few
-/// rounds tell little of one strategy's noise, but much of all strategies'. Does nothing for fewer
-/// than two rounds or strategies.
+/// Takes out of the observed times what slowed all strategies of a round alike, of rounds that all
+/// took part in, and finds the noise that is left, from all strategies together (two-way analysis
+/// of variance of log(seconds)): a few rounds tell little of one strategy's noise, but much of all
+/// strategies'. Does nothing for fewer than two rounds or strategies.
 void remove_drift(std::span<Figures> figures);
 
 /// Logarithm of a's variance over b's, over the same replicates. ∓∞ where one is exact, 0 where

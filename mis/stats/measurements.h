@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,11 @@ namespace mis {
 
 // What was measured, before anything is concluded from it: filled by a study, read by rank().
 // Luminance throughout.
+
+/// A figure that was estimated without bias, and its standard error.
+struct ValueAndError {
+    double value = 0, se = 0;
+};
 
 /// Of every study, but where there are not two samples for each.
 inline constexpr int most_replicates = 16;
@@ -52,16 +58,21 @@ struct PooledFigures {
     double largest_point_share = 0;        ///< of `variance`: what the noisiest point carries
     double largest_relative_variance = 0;  ///< of a point: its variance over its squared mean
     std::size_t zero_points = 0;           ///< of which all samples are 0
+    std::size_t single_points = 0;         ///< of fewer than two samples, which know no variance
     double rare_share =
         0;  ///< of `variance`: what points carry whose own participation is below 10
 };
 
-/// One strategy's cost, once: CPU seconds of one replicate *over all shading points* (so that every
-/// observation is of the same work), divided by its samples, and by its points. Observation i of
-/// every strategy is of the same round.
+/// Rounds have numbers below this. What was observed in none has a number from here on.
+inline constexpr std::uint32_t of_no_round = 1U << 31;
+
+/// One strategy's cost, once: CPU seconds of a round *over all shading points* (so that every
+/// observation is of the same work), divided by its samples, and by its points.
 struct TimeObservation {
     double seconds_per_sample = 0;
     double seconds_per_point = 0;  ///< what is prepared once per point
+    /// Observations of one round, of whichever strategies, were disturbed alike.
+    std::uint32_t round = 0;
 
     /// Of one point with so many samples (docs/theory.md (32)).
     double seconds_for(double samples) const
@@ -83,6 +94,32 @@ struct Audit {
     bool relative_available = false;
     double relative_variance_from_others = 0, relative_variance_from_others_se = 0;
     double own_relative_variance = 0, own_relative_variance_se = 0;
+};
+
+/// One strategy's variance by directions that all strategies share, in place of its own samples'
+/// (docs/theory.md §25). A turn of such directions, at every point, is a replicate.
+struct SharedFigures {
+    double variance = 0, relative_variance = 0;  ///< as in PooledFigures; may be below 0
+    /// How far it may be off, as μ is estimated from the same directions; of one sign for all that
+    /// share these.
+    double relative_variance_doubt = 0;
+    double relative_variance_se = 0;  ///< from the spread of the rounds at each point
+    /// [replicate][region]: the same of the relative variance, each point's over a rough μ² + ε² of
+    /// it, so that only their ratios count.
+    std::vector<std::vector<double>> relative_region_variances;
+    /// [replicate][region]: what the region adds to the replicate's variance.
+    std::vector<std::vector<double>> region_variances;
+    double missed = 0;                  ///< of the mean: what the strategy never draws
+    std::vector<ValueAndError> probes;  ///< [probe]: variance of one sample
+};
+
+/// The mean of a strategy's own samples beside the mean of shared directions, over the image or a
+/// region. The errors are independent of each other.
+struct MeanCheck {
+    double own = 0, own_se = 0;  ///< by the strategy's shared variance
+    double shared = 0, shared_se = 0;
+    double shared_dof = 1;    ///< of shared_se
+    bool is_testable = true;  ///< own_se is known well enough
 };
 
 /// All that was measured of one strategy on one scene.
@@ -110,6 +147,9 @@ struct StrategyMeasurements {
     /// Zero variance: every sample equals the reference to rounding, by exactness_of().
     bool all_samples_equal_reference = false;
     Audit audit;
+    std::optional<SharedFigures> shared;  ///< where its variance comes from shared directions
+    /// The image, then its regions; empty where no directions are shared.
+    std::vector<MeanCheck> mean_checks;
 
     std::vector<TimeObservation> times;
     std::map<std::string, double> stage_seconds;  ///< CPU seconds over all samples

@@ -30,7 +30,10 @@ PooledFigures pool_points(std::span<const Moments> points, std::span<const doubl
         const Moments& point = points[i];
         pooled.samples += point.count;
         pooled.mean += point.mean;
-        if (point.count < 2) continue;
+        if (point.count < 2) {
+            ++pooled.single_points;
+            continue;
+        }
         ++with_variance;
         const double per_sample = 1 / static_cast<double>(point.count - 1),
                      variance = point.m2 * per_sample;
@@ -67,7 +70,7 @@ RelativeScale relative_scale(std::vector<double> means, const FigurePoints& poin
     const auto end_of_figures = means.begin() + static_cast<std::ptrdiff_t>(points.lit);
     RelativeScale scale;
     if (points.has_camera && points.all > 0)
-        scale.epsilon = 0.01 * std::accumulate(means.begin(), end_of_figures, 0.0) /
+        scale.epsilon = share_of_epsilon * std::accumulate(means.begin(), end_of_figures, 0.0) /
                         static_cast<double>(points.all);
     for (const double mean : means)
         scale.squares.push_back(mean * mean + scale.epsilon * scale.epsilon);

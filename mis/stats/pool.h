@@ -24,6 +24,9 @@ struct FigurePoints {
     bool has_camera = false;  ///< else they are probes
 };
 
+/// ε over the image's mean (design §1).
+inline constexpr double share_of_epsilon = 0.01;
+
 /// What relative variances divide by: μ² + ε² of every point, and ε, which is 1 % of the mean over
 /// the figures' points, or 0 without a camera (design §1).
 struct RelativeScale {

@@ -4,6 +4,7 @@
 #include "mis/stats/figures.h"
 #include "mis/stats/pairs.h"
 #include "mis/stats/resolved.h"
+#include "mis/strategy/names.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,12 @@ void exclude(StrategyReport& report, Status status, Reason why)
 {
     report.status = status;
     report.reason = std::move(why);
+}
+
+/// Of all light, as far as shared directions know.
+double never_drawn(const StrategyMeasurements& s)
+{
+    return s.shared && s.shared->missed > 0 ? s.shared->missed / s.mean_checks.front().shared : 0;
 }
 
 /// Gives each strategy its state.
@@ -41,13 +48,23 @@ void set_states(std::vector<StrategyReport>& reports, const SceneMeasurements& s
             index.push_back(i);
         }
     }
-    const std::vector<BiasFinding> findings = find_bias(resolved, bias_error);
+    const bool are_beside_shared = std::ranges::all_of(
+        resolved, [](const StrategyMeasurements* s) { return !s->mean_checks.empty(); });
+    const std::vector<BiasFinding> findings = are_beside_shared
+                                                  ? find_bias_beside_shared(resolved, bias_error)
+                                                  : find_bias(resolved, bias_error);
     for (std::size_t k = 0; k < resolved.size(); ++k) {
         StrategyReport& report = reports[index[k]];
         report.bias_p_value = findings[k].p_value;
+        if (const double share = never_drawn(*resolved[k]); share > rounding_of_means) {
+            exclude(report, Status::biased, reason::NeverDraws{share});
+            report.exact = false;
+            continue;
+        }
         if (!findings[k].biased) continue;
         reason::MeanDiffers why = findings[k].why;
-        why.may_lack_rare_samples = may_lack_rare_samples(findings[k], *resolved[k]);
+        why.may_lack_rare_samples =
+            !resolved[k]->shared && may_lack_rare_samples(findings[k], *resolved[k]);
         exclude(report, why.may_lack_rare_samples ? Status::not_resolved : Status::biased, why);
         report.exact = false;
     }
@@ -79,10 +96,10 @@ std::vector<Comparison> compared_by(LogRatio ratio, const std::vector<int>& memb
 }
 
 /// What an earlier look decided stands; but not that a is better once it no longer is.
-void let_stand(std::span<const PairReport> earlier, std::span<Comparison> family)
+void let_stand(const SceneReport& earlier, std::span<Comparison> family)
 {
     for (Comparison& now : family)
-        for (const PairReport& then : earlier) {
+        for (const PairReport& then : earlier.pairs) {
             if (now.verdict != Verdict::undecided) break;
             const bool is_turned = now.a == then.b && now.b == then.a;
             if ((now.a == then.a && now.b == then.b) ||
@@ -136,13 +153,82 @@ const Comparison* find(const std::vector<Comparison>& family, int a, int b)
     return it == family.end() ? nullptr : &*it;
 }
 
-LogEstimate turned_over(LogEstimate ratio)
+/// The standings of an earlier look; none where others were ranked then.
+std::vector<Standing> earlier_standings(const SceneReport* earlier,
+                                        const std::vector<StrategyReport>& now)
 {
-    ratio.value = -ratio.value;
-    return ratio;
+    std::vector<Standing> standings;
+    if (!earlier || earlier->leader.empty() || earlier->strategies.size() != now.size()) return {};
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        const StrategyReport& then = earlier->strategies[i];
+        if ((then.status == Status::ranked) != (now[i].status == Status::ranked)) return {};
+        standings.push_back({then.may_be_best, then.behind_at_most});
+    }
+    return standings;
+}
+
+/// Draws towards lights of one sample: none, or one.
+bool draws_one_light(const Strategy& s)
+{
+    return !s.chooses_light() || (!draws_every_light(s.policy) && s.counts[0] == 1);
+}
+
+bool is_the_clock_all_that_tells(const StrategyReport& a, const StrategyReport& b)
+{
+    return (a.exact && b.exact) || have_same_samples(a, b);
+}
+
+/// Of `members` and the pairs of one figure.
+void decide_which_to_use(Ranking& ranking, std::vector<int> members,
+                         std::span<const Comparison> pairs, double error,
+                         const SceneReport* earlier)
+{
+    std::vector<StrategyReport>& reports = ranking.strategies;
+    std::sort(members.begin(), members.end());  // as they were asked for
+    const std::vector<Standing> before = earlier_standings(earlier, reports);
+    Contenders among{members, pairs, reports.size(), error, before};
+    among.are_alike = [&](int i, int j) {
+        return is_the_clock_all_that_tells(reports[i], reports[j]);
+    };
+    ranking.decision = decide_best(among);
+    for (const int i : members) {
+        reports[i].may_be_best = ranking.decision.of[i].may_be_best;
+        reports[i].behind_at_most = ranking.decision.of[i].behind_at_most;
+    }
+    among.earlier = {};
+    std::erase_if(members, [&](int i) { return !draws_one_light(reports[i].strategy); });
+    among.members = members;
+    ranking.of_one_light = decide_best(among);
+}
+
+/// Is every variance of those that are ranked known?
+bool are_variances_known(const std::vector<StrategyReport>& reports)
+{
+    return std::ranges::all_of(reports, [](const StrategyReport& s) {
+        return s.status != Status::ranked || is_known_to(variance_is_known, s.variance);
+    });
+}
+
+std::string leader_name(const Decision& decision, const std::vector<StrategyReport>& strategies)
+{
+    return decision.leader < 0 ? "" : name_of(strategies[decision.leader].strategy);
 }
 
 }  // namespace
+
+void put_ranking(Ranking ranking, double seconds, SceneReport& scene)
+{
+    scene.decided = ranking.decision.is_decided;
+    scene.leader = leader_name(ranking.decision, ranking.strategies);
+    scene.decided_of_one_light = ranking.of_one_light.is_decided;
+    scene.leader_of_one_light = leader_name(ranking.of_one_light, ranking.strategies);
+    scene.seconds_to_decide = seconds * ranking.decision.more;
+    scene.settled = ranking.settled;
+    scene.replicates = ranking.replicates;
+    scene.seconds = seconds;
+    scene.strategies = std::move(ranking.strategies);
+    scene.pairs = std::move(ranking.pairs);
+}
 
 Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
 {
@@ -152,7 +238,8 @@ Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
     for (const StrategyMeasurements& s : scene.strategies) {
         figures.push_back(figures_of(s, options.at));
         ranking.strategies.push_back(report_of(s, figures.back(), scene.points, options.threads));
-        if (s.was_run) replicates = std::min(replicates, static_cast<int>(s.replicates.size()));
+        if (s.was_run)
+            replicates = std::min(replicates, static_cast<int>(figures.back().variances.size()));
     }
     remove_drift(figures);
     ranking.replicates = replicates == std::numeric_limits<int>::max() ? 0 : replicates;
@@ -168,13 +255,15 @@ Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
     ranked = sorted_by(log_variance_ratio, std::move(ranked), figures);
     const double error = options.family_error * options.share;
     auto by_variance = compared_by(log_variance_ratio, ranked, figures, options.margin, error);
-    let_stand(options.earlier, by_variance);
+    if (options.earlier) let_stand(*options.earlier, by_variance);
     const auto by_cost = compared_by(log_cost_ratio, timed, figures, options.margin, error);
     const auto by_time = compared_by(log_time_ratio, timed, figures, options.margin, error);
     set_ranks(ranking.strategies, by_variance, ranked, figures);
     set_ranks_by_efficiency(ranking.strategies, by_cost, timed, figures);
 
-    ranking.settled = !ranked.empty();
+    decide_which_to_use(ranking, timed.empty() ? ranked : timed,
+                        timed.empty() ? by_variance : by_time, error, options.earlier);
+    ranking.settled = ranking.decision.is_decided && are_variances_known(ranking.strategies);
     for (const Comparison& c : by_variance) {
         PairReport pair;
         pair.a = c.a;
@@ -192,7 +281,6 @@ Ranking rank(const SceneMeasurements& scene, const RankOptions& options)
             pair.time_ratio = interval_of(log_time_ratio(figures[c.a], figures[c.b]));
             pair.time_verdict = time->verdict;
         }
-        ranking.settled = ranking.settled && c.verdict != Verdict::undecided;
         ranking.pairs.push_back(pair);
     }
     return ranking;

@@ -30,7 +30,8 @@ inline constexpr double audit_factor = 1.2;
 /// Why this strategy's variance is not resolved; None if it is. Tests, in this order: what the
 /// other strategies' samples say (audit); at least two replicates; no variance that is zero without
 /// a proof; participation in the variance and in the relative variance; spread of the replicates.
-/// Precondition: the strategy was run.
+/// Where shared directions say what its variance is: that it is three standard errors above 0, and
+/// their spread. Precondition: the strategy was run.
 Reason why_not_resolved(const StrategyMeasurements& strategy);
 
 /// The same by all tests that take no reference: not the participation in the relative variance.
@@ -39,6 +40,9 @@ Reason why_variance_not_resolved(const StrategyMeasurements& strategy);
 /// Why its samples missed what matters, as far as is known: the audit, or no variance without a
 /// proof. None if nothing says so.
 Reason why_blind(const StrategyMeasurements& strategy);
+
+/// Does the audit find more variance than its own samples show?
+bool is_refuted(const StrategyMeasurements& strategy);
 
 /// How many times its own variance, and relative variance, the other strategies' samples find at
 /// least: 1 where the audit has nothing against it, or its own is 0.

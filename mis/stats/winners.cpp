@@ -71,6 +71,19 @@ void PlaceSamples::add(const Moments& point)
     participation.sum_d4 += own.sum_d4;
 }
 
+void PlaceSamples::add(const Moments& point, const ValueAndError& known)
+{
+    samples += point.count;
+    mean += point.mean;
+    squared_means += point.mean * point.mean;
+    variance += known.value;
+    mean_se2 +=
+        std::max(known.value, 0.0) / static_cast<double>(std::max<std::uint64_t>(point.count, 1));
+    // So many samples carry it as would leave it the same relative error.
+    participation.sum_d2 = variance;
+    participation.sum_d4 += known.se * known.se;
+}
+
 bool Contest::is_contest() const
 {
     return !costs.empty() &&

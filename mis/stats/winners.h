@@ -18,6 +18,9 @@ struct PlaceSamples {
     Participation participation;    ///< in `variance`
 
     void add(const Moments& point);
+    /// Where the variance of one sample is known apart from the samples. Not to be mixed with the
+    /// other.
+    void add(const Moments& point, const ValueAndError& known);
 };
 
 /// Those that may win a place. costs: > 0 of each strategy; all 1 for the variance alone. groups:

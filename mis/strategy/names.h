@@ -14,6 +14,8 @@ struct Choosable {
     /// Is it ranked where nothing is named, on a scene of so many lights, on whose surfaces some
     /// BSDF has a lobe or none has? nullptr: never.
     bool (*ranked_by_default)(std::size_t lights, bool has_lobes) = nullptr;
+    /// Of a technique: the strategy's policy and heuristic with which it is; empty: with none.
+    std::string ranked_by_default_with = {};
 };
 
 /// What the registry of policies lists, in its order.
@@ -26,6 +28,10 @@ const std::vector<Choosable>& technique_names();
 /// The names of those that say that they are ranked by default on such a scene, in their order.
 std::vector<std::string> ranked_by_default(const std::vector<Choosable>& list, std::size_t lights,
                                            bool has_lobes);
+
+/// The names of strategies beside policies × heuristics that are ranked where nothing is named: of
+/// techniques that say so, each by itself or with the policy and heuristic that it names.
+std::vector<std::string> strategies_ranked_by_default(std::size_t lights, bool has_lobes);
 
 /// Does this technique draw towards a light that a policy chose?
 bool chooses_light(std::string_view technique);

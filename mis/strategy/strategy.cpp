@@ -21,6 +21,8 @@ template <class List> std::vector<Choosable> listed(List list)
         names.push_back({std::string(C::name), std::string(C::summary)});
         if constexpr (requires { C::ranked_by_default; })
             names.back().ranked_by_default = C::ranked_by_default;
+        if constexpr (requires { C::ranked_by_default_with; })
+            names.back().ranked_by_default_with = C::ranked_by_default_with;
     });
     return names;
 }
@@ -83,6 +85,17 @@ std::vector<std::string> ranked_by_default(const std::vector<Choosable>& list, s
     for (const Choosable& c : list)
         if (c.ranked_by_default != nullptr && c.ranked_by_default(lights, has_lobes))
             names.push_back(c.name);
+    return names;
+}
+
+std::vector<std::string> strategies_ranked_by_default(std::size_t lights, bool has_lobes)
+{
+    std::vector<std::string> names;
+    for (const Choosable& c : technique_names())
+        if (!c.ranked_by_default_with.empty())
+            names.push_back(c.ranked_by_default_with + "/" + c.name);
+    for (const std::string& name : ranked_by_default(technique_names(), lights, has_lobes))
+        names.push_back(name);
     return names;
 }
 

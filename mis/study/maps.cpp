@@ -79,7 +79,7 @@ private:
         StrategyMap map{static_cast<int>(s), background(), std::vector<float>(pixels_), {}};
         for (std::size_t p = 0; p < lit(); ++p) {
             map.mean[pixel_of(p)] = vec_cast<float>(run.results()[p].mean());
-            map.variance[pixel_of(p)] = static_cast<float>(run.variance_at(p));
+            map.variance[pixel_of(p)] = static_cast<float>(study_.variance_at(s, p));
         }
         for (std::size_t t = 0; t < study_.points->figure_tiles; ++t)
             if (run.invalid_at(t) > 0)
@@ -99,15 +99,22 @@ private:
         for (const std::size_t s : ranked) {
             seconds.push_back(report(s).seconds_per_sample.value +
                               report(s).seconds_per_point.value / at_);
-            fewest = std::min(fewest, static_cast<double>(study_.runs[s]->samples()));
+            fewest = std::min(fewest, samples_per_point(s));
         }
         const bool timed = std::all_of(seconds.begin(), seconds.end(),
                                        [](double s) { return s > 0 && std::isfinite(s); });
-        maps_.winner_square =
-            winner_square(fewest / static_cast<double>(std::max<std::size_t>(lit(), 1)));
+        maps_.winner_square = winner_square(fewest);
         const std::vector<std::vector<std::size_t>> squares = lit_squares();
         find_winners(squares, ranked, ones, maps_.by_variance);
         find_winners(squares, ranked, timed ? seconds : std::vector<double>(), maps_.by_efficiency);
+    }
+
+    /// That its variance is known by.
+    double samples_per_point(std::size_t s) const
+    {
+        if (study_.is_shared(s)) return static_cast<double>(study_.report.directions);
+        return static_cast<double>(study_.runs[s]->samples()) /
+               static_cast<double>(std::max<std::size_t>(lit(), 1));
     }
 
     /// The lit points of each square that has any.
@@ -130,9 +137,16 @@ private:
     {
         std::vector<PlaceSamples> samples(strategies.size());
         for (std::size_t s = 0; s < strategies.size(); ++s)
-            for (const std::size_t p : square)
-                samples[s].add(study_.runs[strategies[s]]->results()[p].luminance);
+            for (const std::size_t p : square) add(samples[s], strategies[s], p);
         return samples;
+    }
+
+    void add(PlaceSamples& samples, std::size_t s, std::size_t point) const
+    {
+        const Moments& own = study_.runs[s]->results()[point].luminance;
+        if (study_.is_shared(s))
+            samples.add(own, study_.shared->at(*study_.shared_places[s], point));
+        else samples.add(own);
     }
 
     /// All undecided where there is no contest.

@@ -17,7 +17,7 @@ constexpr std::size_t few_strategies = 6;
 StrategyRun sampled(const StudyGround& ground, const Strategy& strategy, int samples)
 {
     StrategyRun run(ground.scene, ground.points, strategy, ~ground.seed, ground.stop);
-    if (!run.sample_apart(samples, ground.workspaces, ground.executor, ground.stop))
+    if (!run.sample_apart({samples}, ground.workspaces, ground.executor, ground.stop))
         throw Stopped();
     return run;
 }
@@ -53,8 +53,7 @@ std::vector<double> rough_weights(const StudyGround& ground)
                 pilot_samples);
     std::vector<double> weights;
     for (const PointResult& result : run.results()) weights.push_back(result.luminance.mean);
-    weights =
-        relative_scale(std::move(weights), ground.points.figures(scene.camera.has_value())).squares;
+    weights = relative_scale(std::move(weights), ground.points.figures()).squares;
     for (double& w : weights) w = w > 0 ? 1 / w : 0;
     return weights;
 }

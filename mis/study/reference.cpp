@@ -10,7 +10,7 @@ namespace mis {
 namespace {
 
 /// Samples over the variance of one, in the mean over the points.
-double precision(const StrategyRun& run)
+double precision(const StrategyRun& run, std::optional<double> known)
 {
     double variance = 0, mean = 0;
     for (const PointResult& result : run.results()) {
@@ -18,18 +18,20 @@ double precision(const StrategyRun& run)
         mean += std::abs(result.luminance.mean);
     }
     const double n = std::max<double>(1, static_cast<double>(run.results().size()));
+    if (known) variance = *known * n;
     const double floor = 1e-12 * (mean / n) * (mean / n) + 1e-300;
     return static_cast<double>(run.samples()) / (variance / n + floor);
 }
 
 std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>> runs,
-                                    const std::vector<bool>& trusted)
+                                    const std::vector<bool>& trusted,
+                                    std::span<const std::optional<double>> known)
 {
     std::vector<double> weights(runs.size());
     double sum = 0;
     for (std::size_t s = 0; s < runs.size(); ++s)
         if (trusted[s] && runs[s] && runs[s]->samples() > 0)
-            sum += weights[s] = precision(*runs[s]);
+            sum += weights[s] = precision(*runs[s], known.empty() ? std::nullopt : known[s]);
     for (double& weight : weights) weight = sum > 0 ? weight / sum : 0;
     return weights;
 }
@@ -37,9 +39,10 @@ std::vector<double> pooling_weights(std::span<const std::unique_ptr<StrategyRun>
 }  // namespace
 
 PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
-                         const std::vector<bool>& trusted, std::size_t points)
+                         const std::vector<bool>& trusted, std::size_t points,
+                         std::span<const std::optional<double>> known)
 {
-    PooledMeans means{pooling_weights(runs, trusted), std::vector<double>(points),
+    PooledMeans means{pooling_weights(runs, trusted, known), std::vector<double>(points),
                       std::vector<double>(points)};
     for (std::size_t s = 0; s < runs.size(); ++s) {
         if (!(means.weights[s] > 0)) continue;
@@ -53,8 +56,8 @@ PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
 }
 
 StudyReference::StudyReference(std::span<const std::unique_ptr<StrategyRun>> runs,
-                               const StudyPoints& points, bool has_camera, Measure measure)
-    : runs_(runs), points_(points), has_camera_(has_camera), measure_(std::move(measure))
+                               const StudyPoints& points, Measure measure, KnownVariance known)
+    : runs_(runs), points_(points), measure_(std::move(measure)), known_(std::move(known))
 {
 }
 
@@ -63,8 +66,11 @@ SceneMeasurements StudyReference::of_resolved()
     trusted_.clear();
     for (const auto& run : runs_) trusted_.push_back(run != nullptr);
     SceneMeasurements scene = of_trusted();
+    // One whose variance is known apart from its samples outvotes nobody by what it never drew.
     const auto passes = [&](auto why_not) {
-        return [&scene, why_not](std::size_t s) { return is_none(why_not(scene.strategies[s])); };
+        return [this, &scene, why_not](std::size_t s) {
+            return known_(s).has_value() || is_none(why_not(scene.strategies[s]));
+        };
     };
     const bool some_are_blind = trust_fewer(passes(why_blind));
     if (trust_fewer(passes(why_variance_not_resolved)) || some_are_blind) scene = of_trusted();
@@ -84,9 +90,11 @@ bool StudyReference::trust_fewer(const std::function<bool(std::size_t)>& passes)
 
 SceneMeasurements StudyReference::of_trusted()
 {
-    PooledMeans means = pooled_means(runs_, trusted_, points_.shading.points.size());
+    std::vector<std::optional<double>> known;
+    for (std::size_t s = 0; s < runs_.size(); ++s) known.push_back(known_(s));
+    PooledMeans means = pooled_means(runs_, trusted_, points_.shading.points.size(), known);
     weights_ = std::move(means.weights);
-    RelativeScale scale = relative_scale(std::move(means.values), points_.figures(has_camera_));
+    RelativeScale scale = relative_scale(std::move(means.values), points_.figures());
     scale.mean_errors = std::move(means.errors);
     epsilon_ = scale.epsilon;
     SceneMeasurements scene{points_.figure_lit, {}};

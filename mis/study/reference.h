@@ -19,8 +19,10 @@ struct PooledMeans {
 
 /// Pools the means of those that are trusted. One that never drew what is rare has hardly a
 /// variance, and would outvote all others. runs: null where a strategy was not run.
+/// known: [strategy] its variance, where that is known apart from its samples.
 PooledMeans pooled_means(std::span<const std::unique_ptr<StrategyRun>> runs,
-                         const std::vector<bool>& trusted, std::size_t points);
+                         const std::vector<bool>& trusted, std::size_t points,
+                         std::span<const std::optional<double>> known = {});
 
 /// What the strategies of a study are measured against, and whose means make it.
 class StudyReference {
@@ -28,9 +30,12 @@ public:
     /// What strategy s came to by that scale.
     using Measure = std::function<StrategyMeasurements(std::size_t s, const RelativeScale& scale)>;
 
+    /// Its variance, mean over the points, where shared directions say it.
+    using KnownVariance = std::function<std::optional<double>(std::size_t s)>;
+
     /// runs: of all strategies; null where one was not run.
     StudyReference(std::span<const std::unique_ptr<StrategyRun>> runs, const StudyPoints& points,
-                   bool has_camera, Measure measure);
+                   Measure measure, KnownVariance known);
 
     /// All strategies by one reference, of the means of those that are resolved: first by what
     /// takes no reference, then by the relative variance, too.
@@ -49,8 +54,8 @@ public:
 private:
     std::span<const std::unique_ptr<StrategyRun>> runs_;
     const StudyPoints& points_;
-    bool has_camera_;
     Measure measure_;
+    KnownVariance known_;
     std::vector<bool> trusted_;  ///< [strategy]
     std::vector<double> weights_;
     double epsilon_ = 0;

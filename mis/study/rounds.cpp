@@ -34,20 +34,29 @@ void StudyRounds::take(int chunk, const SamplePlan& plan, const RoundOptions& op
         take_round(allocation, first, first + part, plan.replicates, options);
 }
 
-/// Times are compared over the rounds that all took part in.
 void StudyRounds::take_round(const Allocation& allocation, int first, int end, int replicates,
                              const RoundOptions& options)
 {
-    const bool any_rests =
-        std::find(options.rests.begin(), options.rests.end(), true) != options.rests.end();
-    const std::vector<std::size_t> order = round_order(runs_.size(), ground_.seed, count_++);
+    std::vector<std::size_t> order = round_order(runs_.size(), ground_.seed, count_);
+    // What is dear must not keep others from their turn.
+    std::ranges::stable_partition(order,
+                                  [&](std::size_t s) { return !options.apart_of(s).is_dear(); });
+    const std::optional<std::uint32_t> number =
+        is_round_timed(count_) ? std::optional(count_) : std::nullopt;
+    ++count_;
     std::size_t done = 0;
     for (const std::size_t s : order) {
         if (ground_.is_stopped()) return;
-        if (runs_[s] && !options.rests[s])
-            runs_[s]->sample_round({allocation, first, end, replicates, !any_rests},
-                                   options.weights, ground_.workspaces, ground_.executor,
-                                   ground_.stop);
+        if (runs_[s] && !options.rests[s]) {
+            const SamplesApart apart = options.apart_of(s);
+            if (apart.observations > 0)
+                runs_[s]->sample_apart({apart.observations, number, apart.parts},
+                                       ground_.workspaces, ground_.executor, ground_.stop);
+            else
+                runs_[s]->sample_round({allocation, first, end, replicates, number},
+                                       options.weights, ground_.workspaces, ground_.executor,
+                                       ground_.stop);
+        }
         after_turn_(s, static_cast<double>(++done) / static_cast<double>(order.size()));
     }
 }

@@ -10,12 +10,24 @@
 
 namespace mis {
 
+/// The own samples of a strategy whose variance is not from them: of every point in a round,
+/// outside the replicates.
+struct SamplesApart {
+    int observations = 0;  ///< 0: it takes part in the replicates
+    int parts = 1;         ///< StrategyRun::Apart
+
+    bool is_dear() const { return parts > 1; }
+};
+
 /// How the rounds of a study go, beside how long they are.
 struct RoundOptions {
     std::vector<double> weights;       ///< 1/(μ² + ε²) of every point
     std::vector<double> tile_factors;  ///< [tile]: times the mean number of samples
     std::vector<bool> rests;           ///< [strategy]: takes no part
+    std::vector<SamplesApart> apart;   ///< [strategy], or empty
     bool is_even = false;              ///< every tile gets the same number of samples
+
+    SamplesApart apart_of(std::size_t s) const { return apart.empty() ? SamplesApart() : apart[s]; }
 };
 
 /// The rounds of samples in which a study's strategies take turns, each time in another order.

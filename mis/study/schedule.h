@@ -60,6 +60,14 @@ inline int next_chunk(int rounds_so_far, double seconds_left, double round_secon
     return static_cast<int>(std::min<double>(wanted, fit));
 }
 
+/// Is this round's time an observation? Of the first 1024 each, then 512 in each doubling: short
+/// rounds by the million would tell no more, and have to be sorted at every look.
+inline bool is_round_timed(std::uint32_t round)
+{
+    constexpr std::uint32_t in_a_doubling = 512;
+    return round % std::max(1U, std::bit_floor(round / in_a_doubling)) == 0;
+}
+
 /// How looks at growing measurements share the probabilities of error among them: half of it by the
 /// square of the elapsed part of the time allowed, less what was spent before (Kim and DeMets 1987,
 /// ρ = 2), the rest at the end. Early looks, which decide little, spend little; all together spend

@@ -21,9 +21,15 @@ void SharedIntegrals::take(const DirectionSet& set, std::span<SharedSums> sums,
         for (std::size_t s = 0; s < plan_->entries.size(); ++s) add(s, set, d);
     }
     for (std::size_t s = 0; s < plan_->entries.size(); ++s) {
-        if (counts) sums[s].variance.add(variance_of(s));
+        if (counts) {
+            const double variance = variance_of(s);
+            sums[s].variance.add(variance);
+            sums[s].last += variance;
+            sums[s].with_luminance += variance * mean();
+        }
         const std::size_t every = plan_->entries[s].every;
         const bool is_every = every != SharedPlan::none;
+        sums[s].rounds += 1;
         sums[s].light_mean += is_every ? seen_mean_[every] : pairs_[s].light.mean();
         sums[s].light_mass += is_every ? seen_mass_[every] : pairs_[s].light.mass();
     }
@@ -127,7 +133,6 @@ void SharedIntegrals::add_light_draws(std::size_t s, const DirectionSet& set,
         const LightIndex light = set.light_along(d, i);
         const double share = set.pdf(technique, d, i) * over_mixture;
         sums_of(set.mixture(), light)[entry.every].add(d.group, value, share);
-        if (!(value > 0)) continue;
         seen_mean_[entry.every] += value * share;
         seen_mass_[entry.every] += set.mixture().guess(light) * share;
     }

@@ -3,6 +3,7 @@
 #include "mis/stats/centred_sums.h"
 #include "mis/study/shared_directions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -12,12 +13,20 @@ namespace mis {
 /// What all rounds so far say of one strategy at one point.
 struct SharedSums {
     ReplicateSquares variance;  ///< over the rounds that count
+    double last = 0;            ///< of them: the last take()'s alone
+    double with_luminance = 0;  ///< Σ of each round's, times the luminance by its directions
     /// Of the light draws, over all rounds: Σ of ∫y p and ∫p. Where every light is drawn, ∫p counts
-    /// where something is seen, and by how much of the light LightMixture::guess() expects there.
+    /// by how much of the light LightMixture::guess() expects there.
     double light_mean = 0, light_mass = 0;
+    double rounds = 0;
 
-    /// What the next round's light draws are centred by: it knows nothing of that round.
-    double center() const { return light_mass > 0 ? light_mean / light_mass : 0; }
+    /// What the next round's light draws are centred by: it knows nothing of that round. ∫p is 1
+    /// where it is drawn at all: what met hardly any of it so far tells no mean by it.
+    double center() const
+    {
+        constexpr double hardly = 0.1;
+        return rounds > 0 ? light_mean / std::max(light_mass, hardly * rounds) : 0;
+    }
 };
 
 /// The same of one light's own draws, of a strategy that draws every light.

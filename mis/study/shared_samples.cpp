@@ -32,7 +32,9 @@ void SharedSamples::take(int rounds, const AnyExecutor& executor)
     executor.for_each(parts, [&](std::size_t part) {
         workers_.with([&](std::unique_ptr<Worker>& worker) {
             const std::size_t end = std::min((part + 1) * points_of_part, points_.size());
-            for (std::size_t p = part * points_of_part; p < end && !run_.stop.is_up(); ++p) {
+            for (std::size_t p = part * points_of_part; p < end; ++p) {
+                begin_take(p);
+                if (run_.stop.is_up()) continue;
                 if (!worker)
                     worker = std::make_unique<Worker>(
                         Worker{DirectionSet(*scene_, plan_, run_.counts, run_.stop),
@@ -44,6 +46,12 @@ void SharedSamples::take(int rounds, const AnyExecutor& executor)
     for (const std::vector<double>& of_part : missed)
         for (std::size_t s = 0; s < missed_.size(); ++s) missed_[s] += of_part[s];
     rounds_ += rounds;
+}
+
+void SharedSamples::begin_take(std::size_t point)
+{
+    for (std::size_t s = 0; s < plan_.entries.size(); ++s) sums_[place(s, point)].last = 0;
+    point_sums_[point].last = 0;
 }
 
 void SharedSamples::take_at(std::size_t point, int rounds, Worker& worker, std::span<double> missed)
@@ -60,8 +68,11 @@ void SharedSamples::take_at(std::size_t point, int rounds, Worker& worker, std::
         const int round = of_point.rounds++;
         worker.directions.draw(static_cast<std::uint64_t>(round), run_.seed);
         worker.integrals.take(worker.directions, sums, lights, round > 0);
-        if (round > 0) of_point.luminance.add(worker.integrals.mean());
-        for (std::size_t s = 0; s < strategies; ++s) missed[s] += worker.integrals.missed()[s];
+        if (round > 0) {
+            of_point.luminance.add(worker.integrals.mean());
+            of_point.last += worker.integrals.mean();
+            for (std::size_t s = 0; s < strategies; ++s) missed[s] += worker.integrals.missed()[s];
+        }
     }
 }
 
@@ -71,17 +82,18 @@ bool SharedSamples::is_even() const
                        [&](const PointSums& p) { return p.rounds == rounds_; });
 }
 
-SharedVariance SharedSamples::at(std::size_t strategy, std::size_t point) const
+ValueAndError SharedSamples::at(std::size_t strategy, std::size_t point) const
 {
-    const ReplicateSquares& sums = sums_[point * plan_.entries.size() + strategy].variance;
-    return {sums.mean(rounds()), std::sqrt(sums.squared_error(rounds()))};
+    const ReplicateSquares& sums = sums_[place(strategy, point)].variance;
+    const int n = point_sums_[point].counted();
+    return {sums.mean(n), std::sqrt(sums.squared_error(n))};
 }
 
-SharedVariance SharedSamples::mean(std::size_t strategy, std::span<const double> weights) const
+ValueAndError SharedSamples::mean(std::size_t strategy, std::span<const double> weights) const
 {
     double sum = 0, squares = 0;
     for (std::size_t p = 0; p < points_.size(); ++p) {
-        const SharedVariance found = at(strategy, p);
+        const ValueAndError found = at(strategy, p);
         const double weight = weights.empty() ? 1 : weights[p];
         sum += weight * found.value, squares += weight * found.se * (weight * found.se);
     }
@@ -89,16 +101,25 @@ SharedVariance SharedSamples::mean(std::size_t strategy, std::span<const double>
     return {sum / n, std::sqrt(squares) / n};
 }
 
-SharedVariance SharedSamples::luminance(std::size_t point) const
+ValueAndError SharedSamples::luminance(std::size_t point) const
 {
-    const ReplicateSquares& sums = point_sums_[point].luminance;
-    return {sums.mean(rounds()), std::sqrt(sums.squared_error(rounds()))};
+    const PointSums& of_point = point_sums_[point];
+    const int n = of_point.counted();
+    return {of_point.luminance.mean(n), std::sqrt(of_point.luminance.squared_error(n))};
+}
+
+double SharedSamples::covariance(std::size_t strategy, std::size_t point) const
+{
+    const SharedSums& sums = sums_[place(strategy, point)];
+    const PointSums& of_point = point_sums_[point];
+    const double n = of_point.counted();
+    return (sums.with_luminance / n - sums.variance.mean(n) * of_point.luminance.mean(n)) / (n - 1);
 }
 
 double SharedSamples::missed(std::size_t strategy) const
 {
     return missed_[strategy] /
-           (static_cast<double>(shared_groups) * rounds_ * static_cast<double>(points_.size()));
+           (static_cast<double>(shared_groups) * rounds() * static_cast<double>(points_.size()));
 }
 
 }  // namespace mis

@@ -3,6 +3,7 @@
 #include "mis/math/stop_token.h"
 #include "mis/run/executor.h"
 #include "mis/run/pool.h"
+#include "mis/stats/measurements.h"
 #include "mis/study/shared_integrals.h"
 
 #include <cstdint>
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace mis {
-
-/// The variance of one strategy's sample, from directions that all strategies share.
-struct SharedVariance {
-    double value = 0;  ///< unbiased; where little is known, it may be below 0
-    double se = 0;     ///< standard error, from the spread of the rounds
-};
 
 /// What shared samples run on, and from what numbers.
 struct SharedRun {
@@ -43,13 +38,25 @@ public:
     bool is_even() const;
     /// Rounds that count.
     int rounds() const { return rounds_ - 1; }
+    /// With the first one.
+    int all_rounds() const { return rounds_; }
 
-    /// At one point. Precondition: two rounds count.
-    SharedVariance at(std::size_t strategy, std::size_t point) const;
+    /// The variance of one sample of a strategy at a point, from all rounds there: unbiased, so
+    /// that it may be below 0 where little is known. Its error is from the spread of the rounds.
+    /// Precondition: two rounds count there.
+    ValueAndError at(std::size_t strategy, std::size_t point) const;
     /// Mean over the points, each times its weight; no weights: 1.
-    SharedVariance mean(std::size_t strategy, std::span<const double> weights = {}) const;
+    ValueAndError mean(std::size_t strategy, std::span<const double> weights = {}) const;
     /// Direct radiance's luminance at a point: that of every strategy that misses nothing.
-    SharedVariance luminance(std::size_t point) const;
+    ValueAndError luminance(std::size_t point) const;
+    /// Covariance of these two estimates at a point: both are from the same directions.
+    double covariance(std::size_t strategy, std::size_t point) const;
+    /// The same two from the last take() alone: sums over its rounds that count.
+    double last_variance(std::size_t strategy, std::size_t point) const
+    {
+        return sums_[place(strategy, point)].last;
+    }
+    double last_luminance(std::size_t point) const { return point_sums_[point].last; }
     /// What of it the strategy never draws, mean over the points: it is biased by that.
     double missed(std::size_t strategy) const;
 
@@ -61,8 +68,15 @@ private:
     };
     struct PointSums {
         ReplicateSquares luminance;
+        double last = 0;  ///< of it: the last take()'s
         int rounds = 0;
+        int counted() const { return rounds - 1; }
     };
+    std::size_t place(std::size_t strategy, std::size_t point) const
+    {
+        return point * plan_.entries.size() + strategy;
+    }
+    void begin_take(std::size_t point);
     void take_at(std::size_t point, int rounds, Worker& worker, std::span<double> missed);
 
     const LitScene* scene_;

@@ -1,5 +1,7 @@
 #include "mis/study/stopping.h"
 
+#include "mis/stats/rank.h"
+
 #include <algorithm>
 
 namespace mis {
@@ -8,13 +10,10 @@ namespace {
 /// Not resolved yet, but within the time that is left if all goes on as before.
 bool is_worth_waiting_for(const StrategyReport& strategy, const StudyGoal& goal, double elapsed)
 {
-    return strategy.status == Status::not_resolved &&
+    if (strategy.status != Status::not_resolved) return false;
+    // Shared directions resolve every variance in the end.
+    return strategy.variance_from == VarianceSource::shared ||
            1.5 * strategy.resolving_factor * elapsed < goal.budget();
-}
-
-bool is_known_to(double error, const Interval& variance)
-{
-    return !(variance.value > 0) || variance.high - variance.low <= 2 * error * variance.value;
 }
 
 bool are_all_known(const SceneReport& so_far, const StudyGoal& goal, double elapsed)
@@ -28,9 +27,14 @@ bool are_all_known(const SceneReport& so_far, const StudyGoal& goal, double elap
     return any || elapsed > goal.default_seconds;  // else without end
 }
 
-bool do_all_rest(const std::vector<bool>& rests)
+/// Would more of its own samples tell what is asked: which strategy is best, and every variance?
+bool is_needed(const StrategyReport& s, bool is_decided, const StudyGoal& goal, double elapsed)
 {
-    return std::find(rests.begin(), rests.end(), false) == rests.end();
+    const bool tell_its_variance = s.variance_from == VarianceSource::own;
+    if (s.status != Status::ranked)
+        return tell_its_variance && is_worth_waiting_for(s, goal, elapsed);
+    return (s.may_be_best && !is_decided) ||
+           (tell_its_variance && !is_known_to(variance_is_known, s.variance));
 }
 
 }  // namespace
@@ -47,15 +51,10 @@ bool is_enough(const SceneReport& so_far, const StudyGoal& goal, double elapsed)
 
 std::vector<bool> resting(const SceneReport& so_far, const StudyGoal& goal, double elapsed)
 {
-    std::vector<bool> rests(so_far.strategies.size(), true);
-    for (const PairReport& pair : so_far.pairs)
-        if (pair.verdict == Verdict::undecided)
-            rests[static_cast<std::size_t>(pair.a)] = rests[static_cast<std::size_t>(pair.b)] =
-                false;
-    if (do_all_rest(rests))
-        for (std::size_t s = 0; s < rests.size(); ++s)
-            rests[s] = !is_worth_waiting_for(so_far.strategies[s], goal, elapsed);
-    if (do_all_rest(rests)) rests.assign(rests.size(), false);
+    std::vector<bool> rests;
+    for (const StrategyReport& s : so_far.strategies)
+        rests.push_back(!is_needed(s, so_far.decided, goal, elapsed));
+    if (std::ranges::find(rests, false) == rests.end()) rests.assign(rests.size(), false);
     return rests;
 }
 

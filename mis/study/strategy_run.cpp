@@ -1,5 +1,6 @@
 #include "mis/study/strategy_run.h"
 
+#include "mis/math/limits.h"
 #include "mis/stats/pool.h"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
     std::vector<TileTotals> costs(shading.tiles.size());
     totals.assign(shading.tiles.size(), std::vector<ChunkTotals>(static_cast<std::size_t>(chunks)));
     const auto run_tile = [&](std::size_t t) {
+        if (allocation[t] == 0) return;
         const Tile& tile = shading.tiles[t];
         const SampleRange range{tiles_[t].samples_per_point, allocation[t], chunks,
                                 samples_per_observation_};
@@ -56,6 +58,8 @@ void StrategyRun::forget()
 {
     results_.assign(results_.size(), {});
     tiles_.assign(tiles_.size(), {});
+    times_.clear();
+    samples_ = 0;
 }
 
 bool StrategyRun::sample_round(const Round& round, std::span<const double> weights,
@@ -79,17 +83,31 @@ bool StrategyRun::sample_round(const Round& round, std::span<const double> weigh
             sums.degrees += n - 1;
         }
     }
-    if (round.is_timed) times_.push_back(observed(costs));
+    if (round.number) times_.push_back(observed(costs, *round.number));
     return true;
 }
 
-bool StrategyRun::sample_apart(int count, WorkspacePool<float>& workspaces,
+bool StrategyRun::sample_apart(const Apart& apart, WorkspacePool<float>& workspaces,
                                const AnyExecutor& executor, const StopToken& stop)
 {
-    std::vector<std::vector<ChunkTotals>> totals;
-    const std::vector<TileTotals> costs =
-        run_tiles(Allocation(tiles_.size(), count), 1, {}, totals, workspaces, executor, stop);
-    return !costs.empty() || tiles_.empty();
+    const auto parts = static_cast<std::size_t>(apart.parts);
+    const bool is_first = samples_ == 0;
+    for (std::size_t part = 0; part < parts; ++part) {
+        Allocation allocation(tiles_.size());
+        for (std::size_t t = part; t < tiles_.size(); t += parts)
+            allocation[t] = apart.observations;
+        std::vector<std::vector<ChunkTotals>> totals;
+        const std::vector<TileTotals> costs =
+            run_tiles(allocation, 1, {}, totals, workspaces, executor, stop);
+        if (costs.empty() && !tiles_.empty()) {
+            if (is_first) forget();  // not even a first sample of every point
+            return false;
+        }
+        if (parts > 1)
+            times_.push_back(observed(costs, of_no_round + static_cast<std::uint32_t>(timed())));
+        else if (apart.round) times_.push_back(observed(costs, *apart.round));
+    }
+    return true;
 }
 
 namespace {
@@ -101,19 +119,23 @@ double prepare_seconds(const TileTotals& t)
 
 }  // namespace
 
-/// The mean over the points, not over the samples, which are more on some tiles than on others.
-TimeObservation StrategyRun::observed(std::span<const TileTotals> totals) const
+/// The mean over the points that took part, not over the samples, which are more on some tiles than
+/// on others.
+TimeObservation StrategyRun::observed(std::span<const TileTotals> totals, std::uint32_t round) const
 {
     TimeObservation sum;
+    double points = 0;
     for (std::size_t t = 0; t < points_->figure_tiles; ++t) {
-        const double points = points_->shading.tiles[t].count;
+        if (totals[t].samples == 0) continue;
+        const double of_tile = points_->shading.tiles[t].count;
         const double prepare = prepare_seconds(totals[t]);
+        points += of_tile;
         sum.seconds_per_sample +=
-            points * (totals[t].seconds - prepare) / static_cast<double>(totals[t].samples);
+            of_tile * (totals[t].seconds - prepare) / static_cast<double>(totals[t].samples);
         sum.seconds_per_point += prepare;
     }
-    const double lit = static_cast<double>(points_->figure_lit);
-    return {sum.seconds_per_sample / lit, sum.seconds_per_point / lit};
+    points = std::max(points, 1.0);
+    return {sum.seconds_per_sample / points, sum.seconds_per_point / points, round};
 }
 
 TimeObservation StrategyRun::try_out(int samples, std::size_t points,
@@ -189,7 +211,7 @@ StrategyMeasurements StrategyRun::measurements(const RelativeScale& scale) const
 /// Means over the points, tile by tile: a tile that has more samples does not count more.
 void StrategyRun::add_replicates(StrategyMeasurements& m) const
 {
-    if (points_->figure_tiles == 0) return;
+    if (points_->figure_tiles == 0 || tiles_.front().replicates.empty()) return;
     const double points = static_cast<double>(std::max<std::size_t>(points_->figure_points, 1));
     std::vector<double> region_points(points_->regions);
     for (std::size_t t = 0; t < points_->figure_tiles; ++t)

@@ -29,7 +29,8 @@ public:
     struct Round {
         const Allocation& allocation;
         int first, end, replicates;
-        bool is_timed;  ///< the time is an observation
+        /// Of the round, as its observation of time has it; none where it is not timed.
+        std::optional<std::uint32_t> number = {};
     };
 
     /// The next samples of every point. weights: 1/(μ² + ε²) of every point. Every observation of
@@ -39,11 +40,22 @@ public:
                       WorkspacePool<float>& workspaces, const AnyExecutor& executor,
                       const StopToken& stop = {});
 
-    /// The next observations of every point, `count` of them, outside the replicates: they count in
-    /// the points' moments alone. False where it was
-    /// stopped.
-    bool sample_apart(int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor,
-                      const StopToken& stop = {});
+    /// What every point gets outside the replicates: it counts in the points' moments alone.
+    struct Apart {
+        int observations;
+        /// Of the observation of time, which is not made where there is none.
+        std::optional<std::uint32_t> round = {};
+        /// Above 1: so many parts of the tiles, one after the other, each an observation of time by
+        /// itself, of no round.
+        int parts = 1;
+    };
+
+    /// False where it was stopped.
+    bool sample_apart(const Apart& apart, WorkspacePool<float>& workspaces,
+                      const AnyExecutor& executor, const StopToken& stop = {});
+
+    /// Observations of time.
+    std::size_t timed() const { return times_.size(); }
 
     /// CPU seconds per sample and per point's preparation, from `samples` at a few points; leaves
     /// no trace. Throws Stopped.
@@ -86,7 +98,7 @@ private:
                                       WorkspacePool<float>& workspaces, const AnyExecutor& executor,
                                       const StopToken& stop);
     void forget();  ///< all samples
-    TimeObservation observed(std::span<const TileTotals> totals) const;
+    TimeObservation observed(std::span<const TileTotals> totals, std::uint32_t round) const;
     void add_replicates(StrategyMeasurements& m) const;
     void add_costs(StrategyMeasurements& m) const;
 

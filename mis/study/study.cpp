@@ -1,82 +1,82 @@
 #include "mis/study/study.h"
 
 #include "mis/engine/exact.h"
-#include "mis/engine/stopwatch.h"
 #include "mis/math/limits.h"
 #include "mis/stats/exactness.h"
 #include "mis/stats/rank.h"
-#include "mis/study/affordable.h"
+#include "mis/stats/resolved.h"
+#include "mis/study/mean_checks.h"
 #include "mis/study/reference.h"
-#include "mis/study/rounds.h"
 #include "mis/study/savings.h"
 #include "mis/study/scene_facts.h"
-#include "mis/study/study_audit.h"
+#include "mis/study/set_up.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace mis {
 
 namespace {
 
-/// Of the time given, for the first samples of all strategies.
-constexpr double first_share = 0.6;
+/// Of the time given, at most until then: what leaving out effects saves has been measured.
+constexpr double savings_until = 0.1;
 
-/// Of the time given, at most until then: what leaving out effects saves has been measured; the
-/// spread of the samples and the audit are known; the first samples begin.
-constexpr double savings_until = 0.1, audit_until = 0.5, first_until = 0.9;
+/// Rounds of own samples that each strategy takes part in at least, where directions are shared, so
+/// that its time has an error.
+constexpr std::size_t fewest_timed_rounds = 4;
+
+/// After a round of own samples, turns of shared directions take as long, but no longer than this,
+/// seconds.
+constexpr double longest_turns = 2;
+
+/// A strategy's variance is from shared directions unless a first look, of so many turns, says that
+/// they would not resolve it by the end.
+constexpr std::size_t turns_of_look = 3;
 
 /// One study under way.
 class Scheduler {
 public:
     Scheduler(const LitScene& scene, const std::vector<Strategy>& strategies,
               const StudyOptions& options, const AnyExecutor& executor)
-        : scene_(scene), strategies_(strategies), options_(options), goal_(options.goal()),
+        : scene_(scene), strategies_(strategies), options_(options),
+          time_(options.goal(), options.stop),
           points_(std::make_unique<StudyPoints>(
-              find_study_points(scene, stoppable(executor, until(1))))),
-          ground_{scene, *points_, workspaces_, executor, options.seed, stop_},
-          runs_(strategies.size()), costs_(strategies.size()),
-          rounds_(ground_, runs_, [this](std::size_t s, double done) { end_turn(s, done); }),
-          reference_(
-              runs_, *points_, scene.scene().camera.has_value(),
-              [this](std::size_t s, const RelativeScale& scale) { return measured(s, scale); })
+              find_study_points(scene, stoppable(executor, time_.until(1))))),
+          ground_{scene, *points_, workspaces_, executor, options.seed, time_.stop()},
+          ground_until_end_{scene, *points_, workspaces_, executor, options.seed, time_.until(1)}
     {
-        how_.rests.assign(strategies.size(), false);
-        how_.is_even = options.spp.has_value();
     }
 
     Study run()
     {
         start_report();
-        start_runs();
-        if (options_.spp) run_spp();
-        else run_time();
+        set_up_ =
+            set_up(ground_, strategies_, time_, {numbers(), !options_.own_samples, threads()});
+        is_own_.assign(strategies_.size(), set_up_.shared == nullptr);
+        rounds_.emplace(ground_until_end_, set_up_.runs,
+                        [this](std::size_t s, double done) { end_turn(s, done); });
+        reference_.emplace(
+            set_up_.runs, *points_,
+            [this](std::size_t s, const RelativeScale& scale) { return measured(s, scale); },
+            [this](std::size_t s) { return shared_variance(s); });
+        if (lit() > 0) {
+            if (options_.spp) run_spp();
+            else if (set_up_.shared) run_time_sharing();
+            else run_time();
+        }
         finish();
-        return {std::move(report_), std::move(points_), std::move(runs_), reference_.weights()};
+        std::vector<std::optional<std::size_t>> places(strategies_.size());
+        if (is_shared())
+            for (std::size_t s = 0; s < strategies_.size(); ++s)
+                if (!is_own_[s]) places[s] = place_of(s);
+        return {std::move(report_),    std::move(points_),        std::move(set_up_.runs),
+                reference_->weights(), std::move(set_up_.shared), std::move(places)};
     }
 
 private:
-    bool is_stopped() const { return stop_.is_up(); }
-
-    /// Up when the study is stopped, and once that share of its time is over.
-    StopToken until(double share) const
-    {
-        if (options_.spp) return stop_;
-        return stop_.until(start_ + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(share * goal_.budget())));
-    }
-
-    /// For work before the first samples, until `stop` is up.
-    StudyGround ground(const StopToken& stop) const
-    {
-        StudyGround until_then = ground_;
-        until_then.stop = stop;
-        return until_then;
-    }
-
+    bool is_stopped() const { return time_.is_stopped(); }
+    const StudyGoal& goal() const { return time_.goal(); }
     std::size_t lit() const { return points_->figure_lit; }
-    double elapsed() const { return seconds_since(start_); }
 
     void start_report()
     {
@@ -87,7 +87,7 @@ private:
         prove_closed_form();
         try {
             measure_savings(scene_, spread_tiles(shading, most_tiles_of_savings), report_.effects,
-                            until(savings_until));
+                            time_.until(savings_until));
         } catch (const Stopped&) {  // they stay unmeasured
         }
     }
@@ -101,73 +101,6 @@ private:
         has_closed_form_ =
             std::ranges::any_of(strategies_, would_be_exact) &&
             has_closed_form(scene_, points_->shading, points_->figure_tiles, ground_.executor);
-    }
-
-    /// What a first look at the costs allows; a rough picture of the scene, for the weights; how
-    /// samples are best spread; and the audit.
-    void start_runs()
-    {
-        how_.tile_factors.assign(points_->shading.tiles.size(), 1.0);
-        if (lit() == 0) {
-            for (std::size_t s = 0; s < strategies_.size(); ++s) start_run(s);
-            return;
-        }
-        const double cpu = options_.spp ? 1e300 : goal_.budget() * threads();
-        if (!options_.spp)
-            costs_ = estimate_costs(ground(until(first_share)), strategies_,
-                                    first_samples * samples_per_observation(), first_share * cpu);
-        try {
-            for (std::size_t s = 0; s < strategies_.size(); ++s)
-                if (costs_[s].is_affordable) start_run(s);
-            how_.weights = rough_weights(ground(until(first_until)));
-            look_ahead(cpu);
-        } catch (const Stopped&) {
-            run_none();
-        }
-        if (!options_.spp) leave_out_late();
-    }
-
-    /// Which tiles need more samples than others, and the audit, as far as there is time.
-    void look_ahead(double cpu)
-    {
-        try {
-            spreads_ = !options_.spp && 4 * sum_of_costs() < cpu;  // else rounds are few, of twos
-            if (spreads_)
-                how_.tile_factors = best_tile_factors(ground(until(audit_until)), quick(cpu));
-            if (!numbers().is_sobol())
-                audit_.emplace(ground(until(audit_until)), how_.weights, that_run());
-            if (audit_ && audit_->is_empty()) audit_.reset();
-        } catch (const Stopped&) {  // all tiles alike; the report says that there is no audit
-        }
-    }
-
-    /// Those whose first samples take little of the time.
-    std::vector<Strategy> quick(double cpu) const
-    {
-        std::vector<Strategy> strategies;
-        for (std::size_t s = 0; s < strategies_.size(); ++s)
-            if (runs_[s] && costs_[s].seconds < 0.05 * cpu) strategies.push_back(strategies_[s]);
-        return strategies;
-    }
-
-    /// The time was over, or the study stopped, before the first sample.
-    void run_none()
-    {
-        for (std::unique_ptr<StrategyRun>& run : runs_) run.reset();
-        for (CostEstimate& cost : costs_) cost.is_affordable = false, cost.is_known = false;
-    }
-
-    /// What the set-up has left of the time must do for the first samples.
-    void leave_out_late()
-    {
-        const double left = (goal_.budget() - elapsed()) * threads();
-        for (CostEstimate& cost : costs_) cost.is_late = cost.is_affordable;
-        keep_affordable(costs_, left);
-        for (std::size_t s = 0; s < strategies_.size(); ++s) {
-            costs_[s].is_late = costs_[s].is_late && !costs_[s].is_affordable;
-            if (!costs_[s].is_affordable) runs_[s].reset();
-        }
-        plan_.parts = parts_for(sum_of_costs(), std::max(left, 1e-9));
     }
 
     /// Those that find work: no more than tiles.
@@ -185,149 +118,302 @@ private:
         return numbers().is_sobol() ? static_cast<int>(options_.samples_per_scrambling) : 1;
     }
 
-    void start_run(std::size_t s)
-    {
-        runs_[s] = std::make_unique<StrategyRun>(scene_, *points_, strategies_[s], numbers(),
-                                                 until(first_until));
-    }
-
-    std::vector<Strategy> that_run() const
-    {
-        std::vector<Strategy> strategies;
-        for (std::size_t s = 0; s < strategies_.size(); ++s)
-            if (runs_[s]) strategies.push_back(strategies_[s]);
-        return strategies;
-    }
-
-    /// CPU seconds of `first_samples` observations at every point, over the strategies that are
-    /// run.
-    double sum_of_costs() const
-    {
-        double sum = 0;
-        for (const CostEstimate& cost : costs_) sum += cost.is_affordable ? cost.seconds : 0;
-        return sum;
-    }
-
     void end_turn(std::size_t s, double of_round) const
     {
-        if (options_.on_invalid && runs_[s])
-            if (const auto found = runs_[s]->first_invalid())
+        if (options_.on_invalid && set_up_.runs[s])
+            if (const auto found = set_up_.runs[s]->first_invalid())
                 options_.on_invalid(strategies_[s], *found);
         if (!options_.progress) return;
         const double of_plan =
-            (rounds_.count() - 1 + of_round) / static_cast<double>(plan_.chunks.size());
-        options_.progress(options_.spp ? of_plan : elapsed() / goal_.budget(), report_);
+            (rounds_->count() - 1 + of_round) / static_cast<double>(plan_.chunks.size());
+        options_.progress(options_.spp ? of_plan : time_.elapsed() / goal().budget(), report_);
     }
 
     void run_spp()
     {
         plan_ = plan_for(*options_.spp / static_cast<std::uint64_t>(samples_per_observation()));
-        if (lit() == 0) return;
-        double samples = 0, last_look = 0;
+        double samples = 0, all = 0, last_look = 0;
+        for (const int chunk : plan_.chunks) all += chunk;
         for (const int chunk : plan_.chunks) {
-            rounds_.take(chunk, plan_, how_);
-            if (is_stopped()) return;
+            rounds_->take(chunk, plan_, set_up_.how);
             samples += chunk;
-            if (!options_.progress || rounds_.count() < 3 || samples < 1.4 * last_look) continue;
+            if (!share_up_to(samples / all) || is_stopped()) return;
+            if (!options_.progress || rounds_->count() < 3 || samples < 1.4 * last_look) continue;
             last_look = samples;
             rank_now(1);  // to be shown; it decides nothing
         }
         if (plan_.remainder > 0)
-            for (auto& run : runs_)
+            for (auto& run : set_up_.runs)
                 if (run && !is_stopped())
-                    run->sample_apart(plan_.remainder, workspaces_, ground_.executor, stop_);
+                    run->sample_apart({plan_.remainder}, workspaces_, ground_.executor,
+                                      time_.stop());
+    }
+
+    /// Turns of shared directions, until that share of those that were asked for is drawn. False
+    /// where it was stopped.
+    bool share_up_to(double share)
+    {
+        if (!set_up_.shared) return true;
+        SharedTurns& shared = *set_up_.shared;
+        const auto wanted = static_cast<std::uint64_t>(
+            share * static_cast<double>(std::max(*options_.spp, shared.fewest_directions())));
+        while (shared.directions_after_next() <= wanted) {
+            if (!take_turn()) return false;
+            const auto so_far = static_cast<double>(shared.directions());
+            choose_sources(static_cast<double>(*options_.spp) / so_far);
+        }
+        return true;
+    }
+
+    /// The next turn. Weights are found anew once there are four times as many directions; where
+    /// directions are counted, once a quarter of many is drawn.
+    bool take_turn()
+    {
+        SharedTurns& shared = *set_up_.shared;
+        try {
+            if (!shared.take(ground_until_end_)) return false;
+        } catch (const Stopped&) {
+            return false;
+        }
+        constexpr std::uint64_t many = 512;
+        const bool is_due = options_.spp ? *options_.spp >= many && weighed_at_ == 0 &&
+                                               4 * shared.directions() >= *options_.spp
+                                         : shared.directions() >= 4 * weighed_at_ &&
+                                               time_.left() > 0.5 * time_.elapsed();
+        if (shared.is_known() && is_due) {
+            weighed_at_ = shared.directions();
+            shared.weigh_again();
+        }
+        return true;
+    }
+
+    /// By the errors of a first look, which are no part of any figure: whose variance its own
+    /// samples tell. times: how many times as many directions there will be.
+    void choose_sources(double times)
+    {
+        if (has_chosen_ || set_up_.shared->count() < turns_of_look) return;
+        has_chosen_ = true;
+        for (std::size_t s = 0; s < strategies_.size(); ++s) {
+            const std::optional<std::size_t> place = place_of(s);
+            is_own_[s] = !place ||
+                         !(set_up_.shared->relative_error(*place, times) <= largest_relative_error);
+            if (is_own_[s]) set_up_.how.apart[s] = {};
+        }
+    }
+
+    std::optional<std::size_t> place_of(std::size_t s) const
+    {
+        const auto found = std::ranges::find(set_up_.sharing, strategies_[s]);
+        if (found == set_up_.sharing.end()) return std::nullopt;
+        return static_cast<std::size_t>(found - set_up_.sharing.begin());
     }
 
     void run_time()
     {
-        if (lit() == 0) return;
+        plan_.parts = set_up_.parts;
         double samples = 0, last_look = 0, round_seconds = 0;  // of one sample per replicate
-        while (!is_stopped() && !that_run().empty()) {
-            const int chunk = next_chunk(static_cast<int>(rounds_.count()) / plan_.parts,
-                                         goal_.budget() - elapsed(), round_seconds);
+        while (!is_stopped() && does_any_run()) {
+            const int chunk = next_chunk(static_cast<int>(rounds_->count()) / plan_.parts,
+                                         time_.left(), round_seconds);
             if (chunk == 0) return;
             const Clock::time_point before = Clock::now();
-            rounds_.take(chunk, plan_, how_);
+            rounds_->take(chunk, plan_, set_up_.how);
             round_seconds = seconds_since(before) / chunk;
             samples += chunk;
-            if (is_stopped() || rounds_.count() < 3 || samples < 1.4 * last_look) continue;
+            if (is_stopped() || rounds_->count() < 3 || samples < 1.4 * last_look) continue;
             last_look = samples;
-            rank_now(goal_.stops_when_settled() ? spending_.spend_at(elapsed() / goal_.budget())
-                                                : 1);  // no verdict decides to stop
-            if (is_enough(report_, goal_, elapsed())) return;
-            if (goal_.stops_when_settled()) let_rest();
+            if (look()) return;
         }
+    }
+
+    /// Own samples, for times and means, and turns of shared directions share the time.
+    void run_time_sharing()
+    {
+        double own_seconds = 0, last_look = 0;
+        while (!is_stopped() && does_any_run()) {
+            let_dear_rest();
+            const bool takes_own = planned_seconds() < time_.left() && !do_all_rest();
+            const Clock::time_point before = Clock::now();
+            if (takes_own) rounds_->take(2, plan_, set_up_.how);
+            if (takes_own) own_seconds = seconds_since(before);
+            if (!take_turns(std::min(own_seconds, longest_turns)) && !takes_own) return;
+            if (is_stopped() || !set_up_.shared->is_known() || time_.elapsed() < 1.2 * last_look)
+                continue;
+            last_look = time_.elapsed();
+            if (look()) return;
+        }
+    }
+
+    /// Wall seconds that the next round of own samples will take, by the first look at the costs.
+    double planned_seconds() const
+    {
+        double cpu = 0;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            if (set_up_.runs[s] && !set_up_.how.rests[s])
+                cpu += set_up_.costs[s].seconds / set_up_.first_samples *
+                       (is_own_[s] ? 2 * most_replicates : set_up_.how.apart[s].observations);
+        return rounds_->count() == 0 ? 0 : cpu / threads();
+    }
+
+    /// For so many seconds, as far as turns fit into the time left; one at least. False where none
+    /// did.
+    bool take_turns(double seconds)
+    {
+        const Clock::time_point before = Clock::now();
+        bool any = false;
+        do {
+            if (is_stopped() || set_up_.shared->last_seconds() > time_.left()) return any;
+            if (!take_turn()) return any;
+            any = true;
+            choose_sources(1 +
+                           0.5 * time_.left() / (turns_of_look * set_up_.shared->last_seconds()));
+        } while (seconds_since(before) < seconds);
+        return true;
+    }
+
+    bool does_any_run() const
+    {
+        return std::ranges::any_of(set_up_.runs, [](const auto& run) { return run != nullptr; });
+    }
+
+    bool do_all_rest() const
+    {
+        return std::ranges::all_of(set_up_.how.rests, [](bool rests) { return rests; });
+    }
+
+    /// Ranks what was measured so far. Is it enough?
+    bool look()
+    {
+        rank_now(goal().stops_when_settled() ? spending_.spend_at(time_.elapsed() / goal().budget())
+                                             : 1);  // no verdict decides to stop
+        if (is_enough(report_, goal(), time_.elapsed())) return true;
+        let_rest();
+        return false;
     }
 
     void let_rest()
     {
-        const std::vector<bool> rested =
-            std::exchange(how_.rests, resting(report_, goal_, elapsed()));
-        if (!spreads_ || how_.rests == rested) return;
+        std::vector<bool>& rests = set_up_.how.rests;
+        const std::vector<bool> rested = rests;
+        if (goal().stops_when_settled()) rests = resting(report_, goal(), time_.elapsed());
+        else if (goal().error && set_up_.shared) rests = is_shared_everywhere();
+        if (set_up_.shared)
+            for (std::size_t s = 0; s < rests.size(); ++s) rests[s] = rests[s] && is_timed(s);
+        if (!set_up_.spreads || rests == rested) return;
         std::vector<Strategy> awake;
-        for (std::size_t s = 0; s < how_.rests.size(); ++s)
-            if (runs_[s] && !how_.rests[s]) awake.push_back(strategies_[s]);
+        for (std::size_t s = 0; s < rests.size(); ++s)
+            if (set_up_.runs[s] && !rests[s]) awake.push_back(strategies_[s]);
         try {
-            how_.tile_factors = best_tile_factors(ground(until(1)), awake);
+            set_up_.how.tile_factors = best_tile_factors(ground_until_end_, awake);
         } catch (const Stopped&) {  // as before
         }
+    }
+
+    bool is_timed(std::size_t s) const
+    {
+        return !set_up_.runs[s] || set_up_.runs[s]->timed() >= fewest_timed_rounds;
+    }
+
+    /// What is dear waits for a first round of all others, is not sampled again before these are
+    /// timed, and then only where there is time.
+    void let_dear_rest()
+    {
+        bool are_others_timed = true;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            are_others_timed = are_others_timed && (is_dear(s) || is_timed(s));
+        if (are_others_timed && planned_seconds() < time_.left()) return;
+        for (std::size_t s = 0; s < strategies_.size(); ++s) {
+            if (is_dear(s)) set_up_.how.rests[s] = rounds_->count() == 0 || is_timed(s);
+            else if (!are_others_timed) set_up_.how.rests[s] = false;
+        }
+    }
+
+    bool is_dear(std::size_t s) const { return set_up_.how.apart[s].is_dear(); }
+
+    /// Where a variance is all that is asked for, own samples of those rest.
+    std::vector<bool> is_shared_everywhere() const
+    {
+        std::vector<bool> shared = is_own_;
+        shared.flip();
+        return shared;
     }
 
     /// share: of the probabilities of error that this look spends.
     void rank_now(double share)
     {
-        const std::vector<PairReport> earlier =
-            goal_.stops_when_settled() ? std::move(report_.pairs) : std::vector<PairReport>();
+        const SceneReport* earlier = goal().stops_when_settled() ? &report_ : nullptr;
         const auto ranked = [&](const SceneMeasurements& scene) {
             return rank(scene, {.threads = ground_.executor.threads,
                                 .at = options_.at,
                                 .share = share,
                                 .earlier = earlier});
         };
-        Ranking ranking = ranked(reference_.of_resolved());
+        if (is_shared()) look_at_shared();
+        Ranking ranking = ranked(reference_->of_resolved());
         const auto is_ranked = [&](std::size_t s) {
             return ranking.strategies[s].status == Status::ranked;
         };
-        if (reference_.trust_fewer(is_ranked))  // some were biased
-            ranking = ranked(reference_.of_trusted());
-        report_.strategies = std::move(ranking.strategies);
-        report_.pairs = std::move(ranking.pairs);
-        report_.settled = ranking.settled;
-        report_.replicates = ranking.replicates;
-        report_.epsilon = reference_.epsilon();
-        report_.seconds = elapsed();
-        report_.lacks_audit = !audit_ && !is_dark();
+        if (reference_->trust_fewer(is_ranked))  // some were biased
+            ranking = ranked(reference_->of_trusted());
+        put_ranking(std::move(ranking), time_.elapsed(), report_);
+        report_.directions = is_shared() ? set_up_.shared->directions() : 0;
+        report_.epsilon = reference_->epsilon();
+        report_.lacks_audit = !set_up_.audit && !is_dark();
         report_.had_no_time_for_audit = report_.lacks_audit && !numbers().is_sobol();
+    }
+
+    /// All that shared directions say, which no reference changes.
+    void look_at_shared()
+    {
+        const SharedTurns& shared = *set_up_.shared;
+        set_up_.audit.emplace(shared, lit(), set_up_.how.weights, set_up_.sharing);
+        of_shared_.resize(strategies_.size());
+        ground_.executor.for_each(strategies_.size(), [&](std::size_t s) {
+            const std::optional<std::size_t> place = place_of(s);
+            if (!set_up_.runs[s] || !place) return;
+            of_shared_[s] = {shared.figures(*place),
+                             mean_checks(*set_up_.runs[s], *points_, shared, *place)};
+        });
+    }
+
+    /// Are shared directions far enough to say something?
+    bool is_shared() const { return set_up_.shared && set_up_.shared->is_known(); }
+
+    std::optional<double> shared_variance(std::size_t s) const
+    {
+        const std::optional<std::size_t> place = place_of(s);
+        if (!is_shared() || !place || is_own_[s]) return std::nullopt;
+        const ValueAndError variance = set_up_.shared->mean(*place);
+        return std::max(variance.value, 0.0) + 2 * variance.se;  // what it may well be
     }
 
     StrategyMeasurements measured(std::size_t s, const RelativeScale& scale) const
     {
-        if (!runs_[s]) return not_run(s);
-        StrategyMeasurements m = runs_[s]->measurements(scale);
-        if (audit_) audit_->add_to(m, runs_[s]->results());
+        if (!set_up_.runs[s] || (lit() > 0 && set_up_.runs[s]->samples() == 0)) return not_run(s);
+        StrategyMeasurements m = set_up_.runs[s]->measurements(scale);
+        if (is_shared() && place_of(s)) {
+            if (!is_own_[s]) m.shared = of_shared_[s].figures;
+            m.mean_checks = of_shared_[s].means;
+        }
+        if (set_up_.audit) set_up_.audit->add_to(m, set_up_.runs[s]->results());
         m.is_proved_exact =
             is_dark() || (has_closed_form_ && gives_closed_form(scene_.scene(), strategies_[s]));
-        m.all_samples_equal_reference = exactness_of(m) != Exactness::none;
+        m.all_samples_equal_reference =
+            exactness_of(m) != Exactness::none && !(m.shared && is_refuted(m));
         return m;
     }
 
     StrategyMeasurements not_run(std::size_t s) const
     {
+        const CostEstimate& cost = set_up_.costs[s];
         StrategyMeasurements m;
         m.strategy = strategies_[s];
         m.was_run = false;
-        m.estimated_seconds = costs_[s].is_known ? costs_[s].seconds : nan;
-        m.not_run_reason = why_not_run(costs_[s]);
+        m.estimated_seconds = cost.is_known ? cost.seconds : nan;
+        m.not_run_reason = set_up_.runs[s] && !is_stopped()
+                               ? Reason(reason::NotReady{})
+                               : why_not_run(cost, set_up_.first_samples, is_stopped());
         return m;
-    }
-
-    Reason why_not_run(const CostEstimate& cost) const
-    {
-        if (cost.is_affordable || (!cost.is_known && is_stopped())) return reason::Stopped{};
-        if (!cost.is_known) return reason::NotReady{};
-        if (cost.is_late) return reason::LateSetUp{};
-        return reason::PastBudget{static_cast<double>(first_samples * samples_per_observation()),
-                                  first_share};
     }
 
     /// No light, or no point that can be lit: every sample is 0, as the mean is.
@@ -341,29 +427,31 @@ private:
 
     void finish()
     {
-        if (!goal_.stops_when_settled() || !report_.settled) rank_now(spending_.spend_rest());
+        if (!goal().stops_when_settled() || !report_.settled) rank_now(spending_.spend_rest());
         report_.partial = is_stopped();
     }
 
     const LitScene& scene_;
     const std::vector<Strategy>& strategies_;
     const StudyOptions& options_;
-    const StudyGoal goal_;
-    StopToken stop_{options_.stop};
-    Clock::time_point start_ = Clock::now();
+    StudyTime time_;
     std::unique_ptr<StudyPoints> points_;
     WorkspacePool<float> workspaces_;
-    StudyGround ground_;
+    StudyGround ground_, ground_until_end_;
     SceneReport report_;
-    std::vector<std::unique_ptr<StrategyRun>> runs_;  ///< [strategy]
-    std::vector<CostEstimate> costs_;                 ///< [strategy]
-    std::optional<StudyAudit> audit_;
+    SetUp set_up_;
     SamplePlan plan_;
-    RoundOptions how_;
-    bool spreads_ = false;          ///< samples over tiles
-    bool has_closed_form_ = false;  ///< at every point of the figures: proved
-    StudyRounds rounds_;
-    StudyReference reference_;
+    struct OfShared {
+        SharedFigures figures;
+        std::vector<MeanCheck> means;
+    };
+    std::vector<OfShared> of_shared_;  ///< [strategy], as of the last look
+    std::vector<bool> is_own_;         ///< [strategy]: its variance is from its own samples
+    bool has_chosen_ = false;          ///< so
+    std::uint64_t weighed_at_ = 0;     ///< directions, when the weights were last found
+    bool has_closed_form_ = false;     ///< at every point of the figures: proved
+    std::optional<StudyRounds> rounds_;
+    std::optional<StudyReference> reference_;
     ErrorSpending spending_;
 };
 

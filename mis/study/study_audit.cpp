@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace mis {
@@ -40,6 +41,16 @@ StudyAudit::StudyAudit(const StudyGround& ground, std::span<const double> weight
     shared.take(1 + static_cast<int>(std::max(fewest_rounds, fewest_looks / points_.size())),
                 ground.executor);
     if (!shared.is_even()) return;
+    for (std::size_t s = 0; s < strategies.size(); ++s)
+        estimates_[name_of(strategies[s])] = {shared.mean(s), shared.mean(s, weights_)};
+}
+
+StudyAudit::StudyAudit(const SharedTurns& shared, std::size_t points,
+                       std::span<const double> weights, std::span<const Strategy> strategies)
+    : points_(points),
+      weights_(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(points))
+{
+    std::iota(points_.begin(), points_.end(), std::size_t{0});
     for (std::size_t s = 0; s < strategies.size(); ++s)
         estimates_[name_of(strategies[s])] = {shared.mean(s), shared.mean(s, weights_)};
 }

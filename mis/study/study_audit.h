@@ -2,6 +2,7 @@
 
 #include "mis/study/pilot.h"
 #include "mis/study/shared_samples.h"
+#include "mis/study/shared_turns.h"
 
 #include <map>
 #include <span>
@@ -19,6 +20,11 @@ public:
     StudyAudit(const StudyGround& ground, std::span<const double> weights,
                std::span<const Strategy> strategies);
 
+    /// Of directions that are shared at all points of the figures already. Precondition:
+    /// shared.is_known().
+    StudyAudit(const SharedTurns& shared, std::size_t points, std::span<const double> weights,
+               std::span<const Strategy> strategies);
+
     /// Is there none, as there was no point, or no time?
     bool is_empty() const { return estimates_.empty(); }
 
@@ -29,7 +35,7 @@ public:
 private:
     std::vector<std::size_t> points_;
     struct Estimate {
-        SharedVariance variance, relative_variance;
+        ValueAndError variance, relative_variance;
     };
     std::vector<double> weights_;                ///< of these points
     std::map<std::string, Estimate> estimates_;  ///< by the strategy's name; none if it was stopped

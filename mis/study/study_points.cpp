@@ -31,6 +31,7 @@ StudyPoints find_study_points(const LitScene& scene, const AnyExecutor& executor
 {
     StudyPoints points;
     const std::optional<Camera>& camera = scene.scene().camera;
+    points.has_camera = camera.has_value();
     if (camera)
         points.shading = find_shading_points(scene.scene(), scene.lights(), scene.surfaces(), 0,
                                              camera->resolution[1], executor);

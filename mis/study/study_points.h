@@ -18,10 +18,11 @@ struct StudyPoints {
     std::size_t figure_points = 0;          ///< with the dark ones
     std::vector<std::int64_t> probe_point;  ///< [probe]: its point, or −1 where it is dark
     std::size_t regions = 0;                ///< of the image, for the bias test
+    bool has_camera = false;                ///< else the figures are over probes
 
     std::size_t region_of(std::size_t tile) const { return tile * regions / figure_tiles; }
     int material_of(std::size_t point) const;
-    FigurePoints figures(bool has_camera) const { return {figure_lit, figure_points, has_camera}; }
+    FigurePoints figures() const { return {figure_lit, figure_points, has_camera}; }
 };
 
 /// Camera and probes; the figures are over the camera's points, or without a camera over the probes

@@ -11,6 +11,7 @@ struct ProjectedTechnique {
     static constexpr std::string_view name = "projected";
     static constexpr std::string_view summary =
         "in proportion to the cosine over the chosen light's cap, above the horizon";
+    static constexpr std::string_view ranked_by_default_with = "product/light";
     static constexpr bool chooses_light = true, sums_lights = false;
     static constexpr bool draws_by_irradiance = true;  ///< the density is cos θ/E
     template <class T>

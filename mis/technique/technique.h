@@ -12,7 +12,8 @@ namespace mis {
 // Which direction, and how dense? Light techniques draw inside the cap of a chosen light; direction
 // techniques draw over the hemisphere, from the BSDF or without it; they are strategies
 // by themselves, and may have ranked_by_default(lights, has_lobes), as a policy
-// (policy/light_choice.h).
+// (policy/light_choice.h). A light technique may have ranked_by_default_with: the policy and
+// heuristic, "product/light", with which it is ranked where nothing is named.
 
 /// A technique that draws in a cap. `n` is the shading normal. sums_lights: its density is the sum
 /// over all lights whose cap holds the direction, and its radiance that of whichever is nearest

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #if MIS_EMBREE_MAJOR >= 4
@@ -126,12 +128,19 @@ void answer_in_packets(RTCScene tree, float scale, std::span<const ShadowRay> ra
     }
 }
 
+struct ReleaseGeometry {
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+/// What we hold of a geometry: given back also where filling it ends early.
+using Geometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
+
 /// New storage of a geometry's buffer, to be filled.
 template <class N>
-N* buffer_of(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t per_item,
+N* buffer_of(const Geometry& geometry, RTCBufferType type, RTCFormat format, std::size_t per_item,
              std::size_t items)
 {
-    void* data = rtcSetNewGeometryBuffer(geometry, type, 0, format, per_item * sizeof(N), items);
+    void* data =
+        rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, per_item * sizeof(N), items);
     if (data == nullptr)
         throw std::runtime_error("Embree has no memory for the surfaces of the scene");
     return static_cast<N*>(data);
@@ -250,7 +259,7 @@ struct EmbreeTracer::Trees {
     void add_mesh(const Mesh& mesh, std::size_t surface, const StopToken& stop)
     {
         StopEvery check(stop, 1 << 16);
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
         auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3,
                                           mesh.positions.size());
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
@@ -266,7 +275,7 @@ struct EmbreeTracer::Trees {
 
     void add_quads(std::vector<std::size_t> surfaces)
     {
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+        const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD));
         auto* vertices = buffer_of<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3,
                                           4 * surfaces.size());
         auto* indices = buffer_of<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, 4,
@@ -285,24 +294,23 @@ struct EmbreeTracer::Trees {
 
     void add_spheres()
     {
-        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
-        rtcSetGeometryUserData(geometry, &spheres);
+        const Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+        rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(spheres.size()));
+        rtcSetGeometryUserData(geometry.get(), &spheres);
         rtcSetGeometryBoundsFunction(
-            geometry, [](const RTCBoundsFunctionArguments* a) { sphere_bounds(a); }, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-        rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+            geometry.get(), [](const RTCBoundsFunctionArguments* a) { sphere_bounds(a); }, nullptr);
+        rtcSetGeometryIntersectFunction(geometry.get(), sphere_intersect);
+        rtcSetGeometryOccludedFunction(geometry.get(), sphere_occluded);
         std::vector<std::size_t> surfaces;
         for (const PlacedSphere& s : spheres) surfaces.push_back(s.surface);
         attach(geometry, std::move(surfaces));
     }
 
     /// surfaces: one, of which all primitives are triangles; or one per primitive.
-    void attach(RTCGeometry geometry, std::vector<std::size_t> surfaces)
+    void attach(const Geometry& geometry, std::vector<std::size_t> surfaces)
     {
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(tree, geometry, static_cast<unsigned>(surfaces_of.size()));
-        rtcReleaseGeometry(geometry);
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(tree, geometry.get(), static_cast<unsigned>(surfaces_of.size()));
         surfaces_of.push_back(std::move(surfaces));
     }
 

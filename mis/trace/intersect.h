@@ -59,8 +59,9 @@ inline double hit_sphere(const Vec3<double>& origin, const Vec3<double>& directi
     const double half_chord = std::sqrt((radius - q) * (radius + q));
     const double d = length(to_center), product = (d - radius) * (d + radius);
     const double far = along >= 0 ? along + half_chord : product / (along - half_chord);
+    if (!(far > 0)) return no_hit;  // behind; or it begins at the sphere and grazes it
     const double near = along >= 0 ? product / far : along - half_chord;
-    return near > 0 ? near : far > 0 ? far : no_hit;
+    return near > 0 ? near : far;
 }
 
 /// Room for the rounding of float coordinates up to `largest`: of the ray's origin and of the

@@ -1,7 +1,7 @@
+#include "mis/trace/light_grid.h"
 #include "mis/trace/lights.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace mis {
@@ -16,19 +16,6 @@ struct Item {
     std::array<float, 4> sphere;  ///< centre, radius
     LightIndex light;
 };
-
-/// An exact box around some lights, relative to the tree's origin.
-struct Box {
-    Vec3<double> low{std::numeric_limits<double>::infinity()},
-        high{-std::numeric_limits<double>::infinity()};
-    void add(const Box& b) { low = glm::min(low, b.low), high = glm::max(high, b.high); }
-};
-
-Box bounds(const Light& light, const Vec3<double>& origin)
-{
-    const Vec3<double> center = light.center - origin;
-    return {center - light.radius, center + light.radius};
-}
 
 /// A rough box, of which only the area counts. The fourth number means nothing.
 struct RoughBox {
@@ -55,16 +42,6 @@ struct RoughBox {
     }
 };
 
-/// The widest float box around a double one: two roundings outwards, for the box and for a radius.
-float rounded_down(double x)
-{
-    return std::nextafter(std::nextafter(static_cast<float>(x), -3e38F), -3e38F);
-}
-float rounded_up(double x)
-{
-    return std::nextafter(std::nextafter(static_cast<float>(x), 3e38F), 3e38F);
-}
-
 /// The middle of the lights' centres, by median, so that a far sun does not move it: of all of them
 /// where they are few, else of some thousand spread over the list.
 Vec3<double> middle_of(const Lights& lights)
@@ -87,39 +64,6 @@ Vec3<double> middle_of(const Lights& lights)
 struct Range {
     std::uint32_t first, end;
     std::uint32_t count() const { return end - first; }
-};
-
-/// Puts boxes onto the grid of a node, outwards.
-class Grid {
-public:
-    Grid(LightNode& node, const Box& around) : node_(node)
-    {
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            const float origin = rounded_down(around.low[axis]);
-            const double extent = around.high[axis] - static_cast<double>(origin);
-            const float step = std::max(rounded_up(extent / 255 * (1 + 1e-6)), 1e-30F);
-            const float margin = 1e-6F * (std::abs(origin) + 255 * step);
-            node.step[a] = step;
-            node.low_origin[a] = origin - margin, node.high_origin[a] = origin + margin;
-            origin_[axis] = static_cast<double>(origin);
-        }
-    }
-    void put(std::size_t child, const Box& box)
-    {
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            const auto step = static_cast<double>(node_.step[a]);
-            const double low = std::floor((box.low[axis] - origin_[axis]) / step),
-                         high = std::ceil((box.high[axis] - origin_[axis]) / step);
-            node_.low[a][child] = static_cast<std::uint8_t>(std::clamp(low, 0.0, 255.0));
-            node_.high[a][child] = static_cast<std::uint8_t>(std::clamp(high, 0.0, 255.0));
-        }
-    }
-
-private:
-    LightNode& node_;
-    Vec3<double> origin_{0};
 };
 
 }  // namespace
@@ -147,13 +91,13 @@ struct LightHierarchy::Builder {
         build(0, {0, count}, 0);
     }
 
-    Box bounds_of(LightIndex index) const
+    LightBox bounds_of(LightIndex index) const
     {
-        return bounds((*tree.lights_)[static_cast<std::size_t>(index)], tree.origin_);
+        return mis::bounds_of((*tree.lights_)[static_cast<std::size_t>(index)], tree.origin_);
     }
 
     /// Fills node `self` with the lights of `range`; the box around them.
-    Box build(std::size_t self, const Range& range, int depth)
+    LightBox build(std::size_t self, const Range& range, int depth)
     {
         std::array<Range, LightNode::width> parts;  // NOLINT: filled before it is read
         const std::size_t count = children_of(range, depth, parts);
@@ -168,14 +112,14 @@ struct LightHierarchy::Builder {
         node.first_light = static_cast<std::uint32_t>(leaves.size());
         for (std::size_t k = inner; k < count; ++k) leaves.push_back(items[parts[k].first].light);
         tree.nodes_.resize(tree.nodes_.size() + inner);
-        std::array<Box, LightNode::width> boxes;
-        Box around;
+        std::array<LightBox, LightNode::width> boxes;
+        LightBox around;
         for (std::size_t k = 0; k < count; ++k) {
             boxes[k] = k < inner ? build(node.first_node + k, parts[k], depth + 3)
                                  : bounds_of(items[parts[k].first].light);
             around.add(boxes[k]);
         }
-        Grid grid(node, around);
+        LightGrid grid(node, around);
         for (std::size_t k = 0; k < count; ++k) grid.put(k, boxes[k]);
         tree.nodes_[self] = node;
         return around;
@@ -282,83 +226,6 @@ LightHierarchy::LightHierarchy(const Lights& lights, const StopToken& stop) : li
     builder.run();
     order_ = std::move(builder.leaves);
     nodes_.shrink_to_fit();
-}
-
-/// Finds the node that names a light by where the light was, and widens or narrows the boxes from
-/// there to the root.
-struct LightHierarchy::Refit {
-    LightHierarchy& tree;
-    LightIndex light;
-    Box before;
-
-    /// Is the light below this node? Then its boxes are right again.
-    bool visit(Node& node)
-    {
-        if (!names(node) && !is_below(node)) return false;
-        std::array<Box, LightNode::width> boxes;
-        Box around;
-        const std::size_t count = node.nodes + node.lights;
-        for (std::size_t k = 0; k < count; ++k) {
-            boxes[k] = k < node.nodes
-                           ? extent(tree.nodes_[node.first_node + k])
-                           : bounds((*tree.lights_)[static_cast<std::size_t>(named(node, k))],
-                                    tree.origin_);
-            around.add(boxes[k]);
-        }
-        Grid grid(node, around);
-        for (std::size_t k = 0; k < count; ++k) grid.put(k, boxes[k]);
-        return true;
-    }
-
-private:
-    LightIndex named(const Node& node, std::size_t k) const
-    {
-        return tree.order_[node.first_light + k - node.nodes];
-    }
-    bool names(const Node& node) const
-    {
-        for (std::size_t k = node.nodes; k < std::size_t{node.nodes} + node.lights; ++k)
-            if (named(node, k) == light) return true;
-        return false;
-    }
-    bool is_below(const Node& node)
-    {
-        for (std::size_t k = 0; k < node.nodes; ++k)
-            if (holds_before(node, k) && visit(tree.nodes_[node.first_node + k])) return true;
-        return false;
-    }
-    bool holds_before(const Node& node, std::size_t k) const
-    {
-        for (std::size_t a = 0; a < 3; ++a) {
-            const auto axis = static_cast<int>(a);
-            const auto step = static_cast<double>(node.step[a]);
-            if (static_cast<double>(node.low_origin[a]) + node.low[a][k] * step > before.low[axis])
-                return false;
-            if (static_cast<double>(node.high_origin[a]) + node.high[a][k] * step <
-                before.high[axis])
-                return false;
-        }
-        return true;
-    }
-    /// The whole of a node's grid.
-    static Box extent(const Node& node)
-    {
-        Box box;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const auto axis = static_cast<int>(a);
-            box.low[axis] = static_cast<double>(node.low_origin[a]);
-            box.high[axis] =
-                static_cast<double>(node.high_origin[a]) + 255 * static_cast<double>(node.step[a]);
-        }
-        return box;
-    }
-};
-
-void LightHierarchy::refit(LightIndex j, const Light& before)
-{
-    Refit refit{*this, j, bounds(before, origin_)};
-    [[maybe_unused]] const bool found = refit.visit(nodes_[0]);
-    assert(found && "before: where light j stood");
 }
 
 }  // namespace mis

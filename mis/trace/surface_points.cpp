@@ -61,7 +61,9 @@ Vec3<double> smooth_normal(const Mesh& mesh, std::uint32_t triangle, const Plane
 
 bool lies_on(const Vec3<double>& x, const Plane& plane, bool is_triangle)
 {
-    const Vec3<double> normal = cross(plane.e1, plane.e2), unit = normalized(normal);
+    const Vec3<double> normal = cross(plane.e1, plane.e2);
+    if (!(length(normal) > 0)) return false;
+    const Vec3<double> unit = normalized(normal);
     const double tolerance = float_offset(plane.largest);
     if (!(std::abs(dot(x - plane.corner, unit)) <= tolerance)) return false;
     const PlaneHit at = hit_plane(x, -unit, plane.corner, plane.e1, plane.e2);
@@ -81,8 +83,8 @@ PlaneBox box_of(const Plane& plane, bool is_triangle)
 {
     const double a = length(plane.e1), b = length(plane.e2),
                  area = length(cross(plane.e1, plane.e2));
-    const double tolerance = float_offset(plane.largest), slack = tolerance / std::min(a, b);
     if (!(area > 0)) return {Vec3<double>(infinity), Vec3<double>(-infinity)};  // nothing does
+    const double tolerance = float_offset(plane.largest), slack = tolerance / std::min(a, b);
     // Of u and v: the thinner the triangle, the more digits are lost.
     const double rounding = 1e-14 * std::max(a, b) * std::max(a, b) / area;
     if (!(rounding < 0.1)) return {Vec3<double>(-infinity), Vec3<double>(infinity)};

@@ -10,7 +10,8 @@
 namespace mis {
 namespace {
 
-constexpr std::size_t most_pairs = 5;  // named, undecided or tied; the rest is a number
+// Named; the rest is a number. Those that are undecided do not say which strategy to use.
+constexpr std::size_t most_pairs = 3, most_undecided = 2;
 
 void say_exact(Sentences& sentences, const SceneView& view)
 {
@@ -22,6 +23,15 @@ void say_exact(Sentences& sentences, const SceneView& view)
                       " exact here, without variance: every sample is the answer to rounding");
 }
 
+/// How many pairs were not named, of `all`.
+void say_more_pairs(Sentences& sentences, std::size_t all, std::size_t named, const char* verdict)
+{
+    if (all <= named) return;
+    const std::size_t more = all - named;
+    sentences.say(std::to_string(more) + (more == 1 ? " more pair is " : " more pairs are ") +
+                  verdict + " in variance");
+}
+
 bool are_tied(const SceneView& view, int i, int j)
 {
     const PairReport* p = view.pair(i, j);
@@ -29,11 +39,11 @@ bool are_tied(const SceneView& view, int i, int j)
 }
 
 /// Ranked strategies of which each is tied with each, in variance: greedily, from the first on.
-std::vector<std::vector<int>> tied_groups(const SceneView& view)
+std::vector<std::vector<int>> tied_groups(const SceneView& view, const SameStrategies& same)
 {
     std::vector<std::vector<int>> groups;
     for (const int i : view.in_order()) {
-        if (view.of(i).exact) continue;
+        if (view.of(i).exact || !same.is_first(i)) continue;
         const auto group = std::ranges::find_if(groups, [&](const std::vector<int>& members) {
             return std::ranges::all_of(members, [&](int j) { return are_tied(view, i, j); });
         });
@@ -45,10 +55,10 @@ std::vector<std::vector<int>> tied_groups(const SceneView& view)
 
 /// Groups of three and more. Returns the pairs that are told.
 std::set<std::pair<int, int>> say_tied_groups(Sentences& sentences, const SceneView& view,
-                                              double margin)
+                                              const SameStrategies& same, double margin)
 {
     std::set<std::pair<int, int>> told;
-    for (const std::vector<int>& group : tied_groups(view)) {
+    for (const std::vector<int>& group : tied_groups(view, same)) {
         if (group.size() < 3) continue;
         std::vector<std::string> names;
         for (const int i : group) {
@@ -61,18 +71,26 @@ std::set<std::pair<int, int>> say_tied_groups(Sentences& sentences, const SceneV
     return told;
 }
 
-void say_ties(Sentences& sentences, const SceneView& view, double margin)
+/// Is it for others to speak of these two?
+bool are_spoken_for(const SameStrategies& same, const PairReport& p)
 {
-    const std::set<std::pair<int, int>> told = say_tied_groups(sentences, view, margin);
+    return !same.is_first(p.a) || !same.is_first(p.b);
+}
+
+void say_ties(Sentences& sentences, const SceneView& view, const SameStrategies& same,
+              double margin)
+{
+    const std::set<std::pair<int, int>> told = say_tied_groups(sentences, view, same, margin);
     std::size_t pairs = 0;
     for (const PairReport& p : view.scene().pairs) {
-        if (p.verdict != Verdict::tied || view.of(p.a).exact || told.contains({p.a, p.b})) continue;
+        if (p.verdict != Verdict::tied || view.of(p.a).exact || told.contains({p.a, p.b}) ||
+            are_spoken_for(same, p))
+            continue;
         if (++pairs > most_pairs) continue;
         sentences.say(view.name(p.a) + " and " + view.name(p.b) + " are tied in variance within " +
                       percent(margin) + " (ratio " + with_error(p.ratio) + ")");
     }
-    if (pairs > most_pairs)
-        sentences.say(std::to_string(pairs - most_pairs) + " more pairs are tied");
+    say_more_pairs(sentences, pairs, most_pairs, "tied");
 }
 
 /// "290 more replicates (19 times as many samples)".
@@ -84,11 +102,12 @@ std::string replicates_in_words(const SceneReport& scene, double more)
                : text + " (" + number(1 + more / scene.replicates, 2) + " times as many samples)";
 }
 
-void say_undecided(Sentences& sentences, const SceneView& view)
+void say_undecided(Sentences& sentences, const SceneView& view, const SameStrategies& same)
 {
     std::size_t undecided = 0;
     for (const PairReport& p : view.scene().pairs) {
-        if (p.verdict != Verdict::undecided || ++undecided > most_pairs) continue;
+        if (p.verdict != Verdict::undecided || are_spoken_for(same, p)) continue;
+        if (++undecided > most_undecided) continue;
         sentences.say(view.name(p.a) + " and " + view.name(p.b) +
                       " are undecided in variance (ratio " + with_error(p.ratio) + ")" +
                       (std::isfinite(p.more_replicates)
@@ -96,17 +115,17 @@ void say_undecided(Sentences& sentences, const SceneView& view)
                                  " would decide"
                            : ""));
     }
-    if (undecided > most_pairs)
-        sentences.say(std::to_string(undecided - most_pairs) + " more pairs are undecided");
+    say_more_pairs(sentences, undecided, most_undecided, "undecided");
 }
 
 }  // namespace
 
-void say_comparisons(Sentences& sentences, const SceneView& view, double margin)
+void say_comparisons(Sentences& sentences, const SceneView& view, const SameStrategies& same,
+                     double margin)
 {
     say_exact(sentences, view);
-    say_ties(sentences, view, margin);
-    say_undecided(sentences, view);
+    say_ties(sentences, view, same, margin);
+    say_undecided(sentences, view, same);
 }
 
 }  // namespace mis

@@ -1,11 +1,13 @@
 #pragma once
 
-#include "mis/words/scene_view.h"
+#include "mis/words/same.h"
 
 namespace mis {
 
 /// Which strategies are exact; which are tied with one another in variance, within `margin`; and
 /// which pairs are undecided.
-void say_comparisons(Sentences& sentences, const SceneView& view, double margin);
+/// Of strategies that are the same, the first speaks for all.
+void say_comparisons(Sentences& sentences, const SceneView& view, const SameStrategies& same,
+                     double margin);
 
 }  // namespace mis

@@ -49,6 +49,11 @@ std::string count(double value)
     return std::isfinite(value) ? fixed(std::round(value), 0) : number(value);
 }
 
+std::string counted(double value, std::string_view what)
+{
+    return count(value) + " " + noun(count(value) == "1" ? 1 : 2, what);
+}
+
 std::string percent(double share) { return number(100 * share, 2) + " %"; }
 
 std::string with_error(const Interval& interval)
@@ -63,21 +68,46 @@ std::string with_error(const Interval& interval)
     const double unit = std::pow(10.0, magnitude(error));
     const double shown =
         std::ceil(error / unit * (1 - 1e-9)) * unit;  // one digit, never less than the error
-    const int digits = -magnitude(shown);
-    if (std::abs(magnitude(interval.value)) > 5)
-        return number(interval.value) + " ± " + number(shown, 1);
+    const int size = magnitude(interval.value), digits = -magnitude(shown);
+    if (size > 5 || size < -3)
+        return number(interval.value, std::max(1, size + digits + 1)) + " ± " + number(shown, 1);
     return fixed(interval.value, digits) + " ± " + fixed(shown, digits);
 }
+
+namespace {
+
+struct Unit {
+    double seconds;
+    const char* name;
+};
+
+Unit unit_of(double seconds)
+{
+    if (seconds >= 36e5) return {86400, "days"};
+    if (seconds >= 3600) return {3600, "h"};
+    if (seconds >= 100) return {60, "min"};
+    if (seconds >= 1 || seconds <= 0) return {1, "s"};
+    if (seconds >= 1e-3) return {1e-3, "ms"};
+    return {1e-6, "µs"};
+}
+
+}  // namespace
 
 std::string duration(double seconds)
 {
     if (!std::isfinite(seconds)) return number(seconds);
-    if (seconds >= 36e5) return number(seconds / 86400, 2) + " days";
-    if (seconds >= 3600) return number(seconds / 3600, 2) + " h";
-    if (seconds >= 100) return number(seconds / 60, 2) + " min";
-    if (seconds >= 1 || seconds <= 0) return number(seconds, 2) + " s";
-    if (seconds >= 1e-3) return number(1e3 * seconds, 2) + " ms";
-    return number(1e6 * seconds, 2) + " µs";
+    const Unit unit = unit_of(seconds);
+    return number(seconds / unit.seconds, 2) + " " + unit.name;
+}
+
+std::string duration(const Interval& seconds)
+{
+    if (!std::isfinite(seconds.low) || !std::isfinite(seconds.high)) return duration(seconds.value);
+    const Unit unit = unit_of(seconds.value);
+    const Interval scaled{seconds.value / unit.seconds, seconds.low / unit.seconds,
+                          seconds.high / unit.seconds};
+    return scaled.low < scaled.high ? with_error(scaled) + " " + unit.name
+                                    : duration(seconds.value);
 }
 
 std::string listed(std::span<const std::string> names)

@@ -2,9 +2,11 @@
 
 #include "mis/report/report.h"
 #include "mis/sampling/sample_name.h"
+#include "mis/scene/text.h"
 
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace mis {
 
@@ -16,6 +18,9 @@ std::string number(double value, int digits = 3);
 /// A count: "1048576", rounded to whole.
 std::string count(double value);
 
+/// "1 sample", "256 samples".
+std::string counted(double value, std::string_view what);
+
 /// "12 %", "0.3 %".
 std::string percent(double share);
 
@@ -24,6 +29,9 @@ std::string with_error(const Interval& interval);
 
 /// "0.83 s", "12 ms", "3 min", "2.5 h".
 std::string duration(double seconds);
+
+/// "0.83 ± 0.02 s", "8 (5 to 13) s".
+std::string duration(const Interval& seconds);
 
 /// "a", "a and b", "a, b and c".
 std::string listed(std::span<const std::string> names);

@@ -16,7 +16,7 @@ const char* variance_words(bool is_relative)
 /// "4096 samples", or "256 scramblings".
 std::string words_of(const reason::Observations& of)
 {
-    return count(of.count) + (of.are_scramblings ? " scramblings" : " samples");
+    return counted(of.count, of.are_scramblings ? "scrambling" : "sample");
 }
 
 std::string words_of(const reason::None&) { return ""; }
@@ -27,8 +27,8 @@ std::string words_of(const reason::Stopped&) { return "stopped before its turn";
 
 std::string words_of(const reason::PastBudget& why)
 {
-    return "past the budget: the first " + count(why.samples) +
-           " samples of it and of those that cost less would take more than " + percent(why.share) +
+    return "past the budget: the first " + counted(why.samples, "sample") +
+           " of it and of those that cost less would take more than " + percent(why.share) +
            " of the time given";
 }
 
@@ -66,8 +66,7 @@ std::string words_of(const reason::RoundingAlone& why)
 {
     const std::string found = "its samples differ by the rounding of floats alone, ";
     if (why.zero_points > 0)
-        return found + "but at " + count(static_cast<double>(why.zero_points)) +
-               (why.zero_points == 1 ? " point" : " points") +
+        return found + "but at " + many(why.zero_points, "point") +
                " all of them are 0, which proves nothing: rare samples may not have been drawn yet";
     return found + "which shows no variance and does not prove that there is none";
 }
@@ -90,6 +89,17 @@ std::string words_of(const reason::ReplicatesDiffer& why)
            percent(why.largest) + " is trusted)";
 }
 
+std::string words_of(const reason::BelowErrors& why)
+{
+    return std::string("its ") + variance_words(why.relative) + " is below " + count(why.errors) +
+           " of its standard errors, so that only a bound of it is known";
+}
+
+std::string words_of(const reason::NeverDraws& why)
+{
+    return "it never draws directions that carry " + percent(why.share) + " of the light";
+}
+
 std::string words_of(const reason::MeanDiffers& why)
 {
     const std::string where = why.region < 0 ? ""
@@ -99,7 +109,8 @@ std::string words_of(const reason::MeanDiffers& why)
            (why.reference != 0 ? percent(std::fabs(why.difference / why.reference))
                                : number(std::fabs(why.difference))) +
            (why.difference > 0 ? " above" : " below") +
-           " what the others agree on (p = " + number(why.p_value, 1) + ", corrected)" +
+           (why.beside_shared ? " that of the shared directions" : " what the others agree on") +
+           " (p = " + number(why.p_value, 1) + ", corrected)" +
            (why.are_only_two ? "; only two are left, and nothing says which of them is right"
                              : "") +
            (why.may_lack_rare_samples ? ": it is biased, or lacks rare samples there" : "");
@@ -124,7 +135,7 @@ std::string words_of(const reason::NoFirstLook&)
 std::string words_of(const reason::SampleTooDear& why)
 {
     return "past the budget: one sample per point takes " + duration(why.seconds) + ", " +
-           std::to_string(why.times) + " times";
+           many(static_cast<std::size_t>(why.times), "time");
 }
 
 std::string words_of(const reason::NoTimeLeft&)

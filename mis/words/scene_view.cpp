@@ -40,6 +40,21 @@ std::vector<int> SceneView::in_order() const
     return order;
 }
 
+int SceneView::find(const std::string& name) const
+{
+    for (int i = 0; i < count(); ++i)
+        if (this->name(i) == name) return i;
+    return -1;
+}
+
+int SceneView::leader() const
+{
+    const int named = find(scene_.leader);
+    if (named >= 0 && of(named).status == Status::ranked) return named;
+    const std::vector<int> order = in_order();
+    return order.empty() ? -1 : order.front();
+}
+
 Interval turned_over(const Interval& ratio)
 {
     return {1 / ratio.value, 1 / ratio.high, 1 / ratio.low};

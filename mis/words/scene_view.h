@@ -28,6 +28,12 @@ public:
     double seconds(int i) const;
     bool is_timed(int i) const;
 
+    /// Of that name; −1 where there is none.
+    int find(const std::string& name) const;
+
+    /// The strategy to use: what the report says, or in older ones the first in order. −1: none.
+    int leader() const;
+
     /// Ranked strategies from the soonest to the last, without times by variance.
     std::vector<int> in_order() const;
 

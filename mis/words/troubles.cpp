@@ -1,8 +1,10 @@
 #include "mis/words/troubles.h"
 
 #include "mis/stats/measurements.h"
+#include "mis/words/kinds.h"
 #include "mis/words/numbers.h"
 #include "mis/words/reasons.h"
+#include "mis/words/same.h"
 
 #include <algorithm>
 
@@ -22,8 +24,10 @@ void say_troubles_of(Sentences& sentences, const SceneView& view, int i)
                                                      duration(s.estimated_seconds) + " of CPU time)"
                                                : ""));
     if (s.invalid_samples > 0)
-        sentences.say(view.name(i) + " gave " + std::to_string(s.invalid_samples) +
-                      " samples that are no numbers and were left out: do not trust its figures" +
+        sentences.say(view.name(i) + " gave " + many(s.invalid_samples, "sample") +
+                      (s.invalid_samples == 1 ? " that is NaN or infinite and was left out"
+                                              : " that are NaN or infinite and were left out") +
+                      ": do not trust its figures" +
                       (s.first_invalid
                            ? "; '" + replay_words(view.scene().file, s.strategy, *s.first_invalid) +
                                  "' with this run's --seed and --resolution shows the first"
@@ -37,17 +41,69 @@ bool has_intervals(const SceneReport& scene)
     });
 }
 
-}  // namespace
-
-void say_troubles(Sentences& sentences, const SceneView& view)
+void say_extent(Sentences& sentences, const SceneReport& scene)
 {
-    const SceneReport& scene = view.scene();
-    for (int i = 0; i < view.count(); ++i) say_troubles_of(sentences, view, i);
     if (scene.partial) sentences.say("Stopped early: these are the results so far");
     else if (scene.replicates > 1 && scene.replicates < most_replicates && has_intervals(scene))
         sentences.say("Intervals are rough: there was room for " +
                       std::to_string(scene.replicates) + " replicates, not " +
                       std::to_string(most_replicates) + " (--spp)");
+}
+
+void say_kind(Sentences& sentences, const SceneView& view, const auto& is_of_it,
+              const KindWords& words)
+{
+    std::vector<std::string> names;
+    for (int i = 0; i < view.count(); ++i)
+        if (is_of_it(view.of(i))) names.push_back(view.name(i));
+    if (!names.empty()) sentences.say(kind_of_trouble(names, "strategy", words));
+}
+
+/// "2 pairs are tied in variance within 2 %".
+void say_pairs(Sentences& sentences, const SceneView& view, const SameStrategies& same)
+{
+    std::size_t tied = 0, undecided = 0;
+    for (const PairReport& p : view.scene().pairs) {
+        if (!same.is_first(p.a) || !same.is_first(p.b)) continue;
+        tied += p.verdict == Verdict::tied && !view.of(p.a).exact ? 1 : 0;
+        undecided += p.verdict == Verdict::undecided ? 1 : 0;
+    }
+    const auto are = [](std::size_t count, const char* what) {
+        return many(count, "pair") + (count == 1 ? " is " : " are ") + what;
+    };
+    std::string text = tied > 0 ? are(tied, "tied") : "";
+    if (undecided > 0) text += (text.empty() ? "" : " and ") + are(undecided, "undecided");
+    if (!text.empty()) sentences.say(text + " in variance (--verbose lists them)");
+}
+
+}  // namespace
+
+void say_troubles(Sentences& sentences, const SceneView& view)
+{
+    for (int i = 0; i < view.count(); ++i) say_troubles_of(sentences, view, i);
+    say_extent(sentences, view.scene());
+}
+
+std::vector<std::string> kinds_of_trouble(const SceneReport& scene)
+{
+    const SceneView view(scene);
+    Sentences sentences;
+    const auto in = [](Status status) {
+        return [status](const StrategyReport& s) { return s.status == status; };
+    };
+    constexpr const char* why = " (--verbose says why)";
+    const SameStrategies same(view);
+    say_the_same(sentences, view, same);
+    say_pairs(sentences, view, same);
+    say_kind(sentences, view, in(Status::not_resolved),
+             {"is not resolved", "are not resolved", why});
+    say_kind(sentences, view, in(Status::biased), {"is biased", "are biased", why});
+    say_kind(sentences, view, in(Status::not_run), {"was not run", "were not run", why});
+    say_kind(sentences, view, [](const StrategyReport& s) { return s.invalid_samples > 0; },
+             {"gave NaN or infinite samples", "gave NaN or infinite samples",
+              ": do not trust such figures (--verbose says how to see the samples)"});
+    say_extent(sentences, scene);
+    return std::move(sentences).all();
 }
 
 }  // namespace mis

@@ -1,8 +1,10 @@
 #include "mis/words/verdict.h"
 
 #include "mis/math/limits.h"
+#include "mis/stats/decision.h"
 #include "mis/words/comparisons.h"
 #include "mis/words/numbers.h"
+#include "mis/words/same.h"
 #include "mis/words/troubles.h"
 
 #include <algorithm>
@@ -13,29 +15,19 @@ namespace {
 
 /// What the best is measured against in the verdict, of those that are surely behind: the next, and
 /// what is commonly used.
-std::vector<int> alternatives(const SceneView& view, const std::vector<int>& order)
+std::vector<int> alternatives(const SceneView& view, const SameStrategies& same,
+                              const std::vector<int>& order)
 {
+    constexpr std::size_t most = 2;
     std::vector<int> found;
-    for (std::size_t k = 1; k < order.size(); ++k) {
+    for (std::size_t k = 1; k < order.size() && found.size() < most; ++k) {
         const std::string is = view.name(order[k]);
         const PairReport* p = view.pair(order[0], order[k]);
-        if (!p || p->time_verdict != Verdict::apart) continue;
+        if (!p || p->time_verdict != Verdict::apart || !same.is_first(order[k])) continue;
         if (found.empty() || is == "uniform/power" || is == "power/power" || is == "brdf")
             found.push_back(order[k]);
     }
     return found;
-}
-
-/// Ranked strategies that stand to `best` like this, in time to 1 % (in variance without times).
-std::vector<std::string> standing(const SceneView& view, int best, Verdict verdict)
-{
-    std::vector<std::string> names;
-    for (const PairReport& p : view.scene().pairs) {
-        if (p.a != best && p.b != best) continue;
-        if ((view.is_timed(best) ? p.time_verdict : p.verdict) == verdict)
-            names.push_back(view.name(p.a == best ? p.b : p.a));
-    }
-    return names;
 }
 
 /// Those that could not be resolved, but are ahead of `best` by the samples that they have.
@@ -71,47 +63,120 @@ std::string remedy(const SceneReport& scene)
                : "";
 }
 
-void say_use(Sentences& sentences, const SceneView& view, const std::vector<int>& order,
-             int threads)
+std::string in_time(const SceneView& view, int i, int threads)
 {
-    const int best = order[0];
-    if (!view.is_timed(best))
-        return sentences.say("Use " + view.name(best) +
-                             ": it has the least variance per sample (no times were taken)");
-    std::vector<std::string> gains;
-    for (const int i : alternatives(view, order))
-        if (view.is_timed(i) && view.sooner(best, i).value > 1)
-            gains.push_back(with_error(view.sooner(best, i)) + " times sooner than " +
-                            view.name(i));
-    sentences.say("Use " + view.name(best) + ": it reaches 1 % error " +
-                  (gains.empty() ? "" : listed(gains) + " (") + "in " +
-                  duration(view.seconds(best)) + " on " + std::to_string(threads) +
-                  (threads == 1 ? " thread" : " threads") + (gains.empty() ? "" : ")"));
+    return "it reaches 1 % error in " + duration(view.seconds(i)) + " on " +
+           std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 
-void say_how_sure(Sentences& sentences, const SceneView& view, int best, double margin)
+void say_use(Sentences& sentences, const SceneView& view, int leader, int threads)
 {
-    const bool lacks_audit = view.scene().lacks_audit;
-    const auto perhaps = perhaps_better(view, best);
+    sentences.say("Use " + view.name(leader) + ": " +
+                  (view.is_timed(leader)
+                       ? in_time(view, leader, threads)
+                       : "it has the least variance per sample (no times were taken)"));
+}
+
+/// "6 more seconds".
+std::string more_time(double seconds)
+{
+    const auto text = [&](double unit, const char* name) {
+        const std::string count = number(std::max(1.0, std::ceil(seconds / unit)), 2);
+        return count + " more " + name + (count == "1" ? "" : "s");
+    };
+    if (seconds < 100) return text(1, "second");
+    return seconds < 7200 ? text(60, "minute") : text(3600, "hour");
+}
+
+/// The first of some names, and how many more there are.
+std::string first_of(const std::vector<std::string>& names)
+{
+    constexpr std::size_t most = 4;
+    if (names.size() <= most + 1) return listed(names);
+    std::vector<std::string> first(names.begin(), names.begin() + most);
+    first.push_back(std::to_string(names.size() - most) + " others");
+    return listed(first);
+}
+
+/// Those that may be best beside the leader and what is the same, from the first to the last. Where
+/// nothing else may be, those that are the same, but for the time they take.
+std::vector<std::string> rivals(const SceneView& view, const SameStrategies& same,
+                                const std::vector<int>& order)
+{
+    std::vector<std::string> names, twins;
+    for (const int i : order) {
+        if (!view.of(i).may_be_best || i == order[0]) continue;
+        if (same.are_same(i, order[0])) twins.push_back(view.name(i));
+        else if (same.is_first(i)) names.push_back(view.name(i));
+    }
+    return names.empty() ? twins : names;
+}
+
+/// What is sure of a leader for which it is decided.
+std::string sure_to(const SceneView& view, int leader, bool has_rivals)
+{
+    const bool is_timed = view.is_timed(leader);
+    const std::string most = has_rivals ? "at most " + percent(most_behind) : "no";
+    return is_timed ? "be " + most + " slower than any other"
+                    : "have " + most + " more variance than any other";
+}
+
+std::string undecided(const SceneView& view, int leader, const std::vector<std::string>& names)
+{
+    const double behind = view.of(leader).behind_at_most, seconds = view.scene().seconds_to_decide;
+    const std::string share = percent(std::ceil(100 * behind / (1 + behind)) / 100);
+    return "Not decided: " + first_of(names) + " may " +
+           (!view.is_timed(leader)  ? "have less variance"
+            : std::isfinite(behind) ? "be up to " + share + " sooner"
+                                    : "be sooner") +
+           (std::isfinite(seconds) ? "; about " + more_time(seconds) + " would decide" : "");
+}
+
+/// Sure are all things said of those that may be best: for all strategies together.
+void say_how_sure(Sentences& sentences, const SceneView& view, const SameStrategies& same,
+                  const std::vector<int>& order)
+{
+    const auto perhaps = perhaps_better(view, order[0]), names = rivals(view, same, order);
+    if (order.size() == 1) {
+        sentences.say("It is the only one that could be ranked");
+    } else if (view.scene().decided) {
+        sentences.say((view.scene().lacks_audit ? "By these samples it is sure to "
+                       : perhaps.empty()        ? "It is sure to "
+                                                : "Of those that are resolved it is sure to ") +
+                      sure_to(view, order[0], !names.empty()) + " (95 %, all strategies together)");
+    } else if (!names.empty()) {
+        sentences.say(undecided(view, order[0], names));
+    }
     if (!perhaps.empty())
-        sentences.say("Not yet sure: " + listed(perhaps) + (perhaps.size() == 1 ? " is" : " are") +
+        sentences.say("Not yet sure: " + first_of(perhaps) +
+                      (perhaps.size() == 1 ? " is" : " are") +
                       " not resolved, and ahead of it by the samples so far; more time would tell");
-    const auto tied = standing(view, best, Verdict::tied),
-               undecided = standing(view, best, Verdict::undecided);
-    const char* what = view.is_timed(best) ? "time to 1 % error" : "variance";
-    if (view.scene().pairs.empty()) return sentences.say("It is the only one that could be ranked");
-    if (tied.empty() && undecided.empty())
-        return sentences.say((lacks_audit ? "By these samples it leads in "
-                              : perhaps.empty()
-                                  ? "It is sure to lead in "
-                                  : "Of those that are resolved it is sure to lead in ") +
-                             std::string(what) + " (95 %, all pairs together)");
-    if (!tied.empty())
-        sentences.say(listed(tied) + (tied.size() == 1 ? " is" : " are") +
-                      " as good: tied with it in " + what + " within " + percent(margin));
-    if (!undecided.empty())
-        sentences.say("Not yet sure: " + listed(undecided) + " may be as good, or better, in " +
-                      what);
+}
+
+/// What it saves, against those that are surely behind.
+void say_gains(Sentences& sentences, const SceneView& view, const SameStrategies& same,
+               const std::vector<int>& order)
+{
+    std::vector<std::string> gains;
+    for (const int i : alternatives(view, same, order))
+        if (view.is_timed(i) && view.sooner(order[0], i).value > 1)
+            gains.push_back(with_error(view.sooner(order[0], i)) + " times sooner than " +
+                            view.name(i));
+    if (!gains.empty()) sentences.say("It reaches 1 % error " + listed(gains));
+}
+
+/// Where the leader draws more than one light for a sample, which of the others to use.
+void say_use_of_one_light(Sentences& sentences, const SceneView& view, int leader, int threads)
+{
+    const SceneReport& scene = view.scene();
+    const int best = view.find(scene.leader_of_one_light);
+    if (best < 0 || best == leader || scene.lights < 2) return;
+    const bool is_alone = scene.leader_of_one_light == "brdf";
+    sentences.say(
+        "Of those that draw one light per sample" + std::string(is_alone ? ", or none" : "") +
+        ", use " + view.name(best) + ": " +
+        (view.is_timed(best) ? in_time(view, best, threads) : "it has the least variance") +
+        (scene.decided_of_one_light ? "" : " (that is not decided)"));
 }
 
 /// Time to 1 % relative error weighs all places alike; efficiency weighs bright ones most. Where
@@ -154,26 +219,8 @@ void say_lack_of_audit(Sentences& sentences, bool had_no_time)
         (had_no_time ? "more time tells" : "--sampler independent tells"));
 }
 
-constexpr double nearly_as_fast = 1.05;
-
-/// Of exact ones that may be as fast as the fastest, and are but for some per cent, the first that
-/// was asked for leads: the clock's noise alone would turn the verdict from run to run.
-void put_leader_first(const SceneView& view, std::vector<int>& order)
-{
-    const int fastest = order[0];
-    const auto may_lead = [&](int i) {
-        const PairReport* p = view.pair(fastest, i);
-        return i == fastest || (view.of(i).exact && p && p->time_verdict != Verdict::apart &&
-                                view.sooner(fastest, i).value < nearly_as_fast);
-    };
-    if (!view.of(fastest).exact) return;
-    auto leader = order.begin();
-    for (auto i = order.begin(); i != order.end(); ++i)
-        if (may_lead(*i) && *i < *leader) leader = i;
-    std::rotate(order.begin(), leader, leader + 1);
-}
-
-void say_verdict(Sentences& sentences, const SceneView& view, int threads, double margin)
+void say_verdict(Sentences& sentences, const SceneView& view, const SameStrategies& same,
+                 int threads)
 {
     std::vector<int> order = view.in_order();
     if (order.empty())
@@ -181,24 +228,37 @@ void say_verdict(Sentences& sentences, const SceneView& view, int threads, doubl
     if (is_black(view, order))
         return sentences.say(
             "No light reaches any point that was measured: all is black, by any strategy");
-    put_leader_first(view, order);
-    say_use(sentences, view, order, threads);
-    say_how_sure(sentences, view, order[0], margin);
+    const int leader = view.leader();
+    std::erase(order, leader);
+    order.insert(order.begin(), leader);
+    say_use(sentences, view, leader, threads);
+    say_how_sure(sentences, view, same, order);
+    say_gains(sentences, view, same, order);
+    say_use_of_one_light(sentences, view, leader, threads);
     if (view.scene().lacks_audit) say_lack_of_audit(sentences, view.scene().had_no_time_for_audit);
-    say_most_efficient(sentences, view, order[0]);
-    say_least_variance(sentences, view, order[0]);
+    say_most_efficient(sentences, view, leader);
+    say_least_variance(sentences, view, leader);
 }
 
 }  // namespace
 
-std::vector<std::string> sentences_of(const SceneReport& scene, int threads, double margin)
+SceneWords words_of(const SceneReport& scene, int threads, double margin)
 {
     const SceneView view(scene);
-    Sentences sentences;
-    say_verdict(sentences, view, threads, margin);
-    say_comparisons(sentences, view, margin);
-    say_troubles(sentences, view);
-    return std::move(sentences).all();
+    const SameStrategies same(view);
+    Sentences answer, details;
+    say_verdict(answer, view, same, threads);
+    say_the_same(details, view, same);
+    say_comparisons(details, view, same, margin);
+    say_troubles(details, view);
+    return {std::move(answer).all(), std::move(details).all()};
+}
+
+std::vector<std::string> sentences_of(const SceneReport& scene, int threads, double margin)
+{
+    SceneWords words = words_of(scene, threads, margin);
+    words.answer.insert(words.answer.end(), words.details.begin(), words.details.end());
+    return words.answer;
 }
 
 std::vector<std::string> overall_sentences_of(const Report& report)

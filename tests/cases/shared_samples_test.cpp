@@ -33,14 +33,13 @@ std::vector<Strategy> strategies_for(const Case& of)
     return all;
 }
 
-/// What is not exceeded by Student's t of as many rounds, but once in a million of all tests.
-double shared_bound()
+/// What is not exceeded by Student's t of so many rounds, but once in a million of all tests.
+double shared_bound(int rounds)
 {
     static const double tests =
         2.0 * double(all_cases().size()) * double(every_plain_strategy().size() + 3);
     return boost::math::quantile(boost::math::complement(
-        boost::math::students_t_distribution<double>(scaled(shared_rounds) - 1),
-        shared_false_alarm / tests / 2));
+        boost::math::students_t_distribution<double>(rounds - 1), shared_false_alarm / tests / 2));
 }
 
 struct SharedSuite {
@@ -76,13 +75,13 @@ SharedScores scores(const SharedSuite& suite, int counted, double planted = 1)
     };
     for (std::size_t s = 0; s < suite.strategies.size(); ++s) {
         const Predicted& p = suite.predicted[s];
-        const SharedVariance v = shared.at(s, 0);
+        const ValueAndError v = shared.at(s, 0);
         found.variance.push_back(
             score(v.value - planted * p.variance, v.se,
                   p.variance_error + rounding * p.variance + square(rounding * p.mean)));
         EXPECT_EQ(shared.missed(s), 0) << name_of(suite.strategies[s]);
     }
-    const SharedVariance mean = shared.luminance(0);
+    const ValueAndError mean = shared.luminance(0);
     found.mean = score(mean.value - suite.predicted[0].mean, mean.se,
                        suite.predicted[0].mean_error + rounding * suite.predicted[0].mean);
     return found;
@@ -94,10 +93,12 @@ TEST_P(SharedAgreement, OfEveryVarianceWithItsPrediction)
 {
     const SharedSuite suite(GetParam());
     if (suite.ready.has_no_tile()) return;
-    const SharedScores found = scores(suite, scaled(shared_rounds));
-    EXPECT_LT(std::abs(found.mean), shared_bound());
+    const int rounds = scaled(shared_rounds);
+    const SharedScores found = scores(suite, rounds);
+    const double bound = shared_bound(rounds);
+    EXPECT_LT(std::abs(found.mean), bound);
     for (std::size_t s = 0; s < suite.strategies.size(); ++s) {
-        EXPECT_LT(std::abs(found.variance[s]), shared_bound())
+        EXPECT_LT(std::abs(found.variance[s]), bound)
             << name_of(suite.strategies[s]) << " " << suite.predicted[s].variance;
     }
 }
@@ -124,10 +125,10 @@ TEST(SharedAgreementTwin, Sees1PercentOnFiveCases)
         ASSERT_NE(found, cases.end()) << name;
         const SharedSuite suite(*found, some);
         const int counted = 24'000;
+        const double bound = shared_bound(counted);
         for (const double z : scores(suite, counted).variance)
-            EXPECT_LT(std::abs(z), shared_bound());
-        for (const double z : scores(suite, counted, 1.01).variance)
-            EXPECT_LT(z, -shared_bound()) << name;
+            EXPECT_LT(std::abs(z), bound) << name;
+        for (const double z : scores(suite, counted, 1.01).variance) EXPECT_LT(z, -bound) << name;
     }
 }
 

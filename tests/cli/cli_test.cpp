@@ -1,5 +1,4 @@
-#include "tests/io/temporary_folder.h"
-#include "tests/support/places.h"
+#include "tests/cli/program.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -16,33 +15,6 @@
 namespace mis {
 namespace {
 
-struct Outcome {
-    int exit;
-    std::string out, error;
-};
-
-std::string text_of(const std::string& file)
-{
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-/// Runs the program with these words, as a shell splits them.
-Outcome mis_with(const std::string& words)
-{
-    const TemporaryFolder folder;
-    const std::string out = (folder / "out").string(), error = (folder / "error").string();
-    const int status = std::system(
-        ("'" + program_file().string() + "' " + words + " >'" + out + "' 2>'" + error + "'")
-            .c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(error)};
-}
-
-std::string scene(const std::string& name)
-{
-    return (source_dir() / "scenes" / (name + ".json")).string();
-}
-
 struct BadLine {
     const char* words;
     const char* message;  ///< that standard error must hold
@@ -54,7 +26,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
     const std::array lines{
         BadLine{"frob", "found command \"frob\""},
         BadLine{"compar", "Did you mean \"compare\""},
-        BadLine{"compare", "scenes is required"},
+        BadLine{"compare", "mis: compare: found no SCENE; it needs"},
         BadLine{"compare /no/such.json", "no such file"},
         BadLine{"compare .", "found a directory"},
         BadLine{"replay VEACH --strategy brdf --point 20000 --sample -1", "found \"-1\""},
@@ -76,7 +48,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare VEACH --error 0", "--error: found 0"},
         BadLine{"compare VEACH --at 0", "--at: found 0"},
         BadLine{"compare VEACH --seed -1", "found \"-1\""},
-        BadLine{"compare VEACH --threads -3", "--threads: found -3"},
+        BadLine{"compare VEACH --threads -3", "--threads: found \"-3\""},
         BadLine{"compare VEACH --resolution 0x4", "--resolution: found \"0x4\""},
         BadLine{"compare VEACH --resolution 99999x4", "--resolution: found"},
         BadLine{"compare VEACH --effects some", "--effects: found \"some\""},
@@ -106,7 +78,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"compare VEACH --spp 8 --json /no/such/folder/x.json", "there is no folder"},
         BadLine{"compare VEACH --spp 8 --out /no/such/folder/x", "there is no folder"},
         BadLine{"compare VEACH --resolution 16384x16384", "GB"},
-        BadLine{"render VEACH", "--out is required"},
+        BadLine{"render VEACH", "mis: render: found no --out; it needs --out FILE.exr"},
         BadLine{"render VEACH --out x.png", "ends in .exr"},
         BadLine{"render VEACH --out ''", "ends in .exr"},
         BadLine{"compare VEACH --strategy ''", "--strategy: found \"\""},
@@ -119,7 +91,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"render VEACH --strategy exact --out x.exr", "have a closed form, and all must"},
         BadLine{"render VEACH --strategy exact --spp 4 --out x.exr", "takes no samples"},
         BadLine{"render VEACH --strategy exact --effects all --out x.exr", "--effects auto"},
-        BadLine{"cost", "scene is required"},
+        BadLine{"cost", "mis: cost: found no SCENE"},
         BadLine{"cost VEACH --strategy powr/power", "Did you mean \"power\""},
         BadLine{"cost VEACH --precision half", "--precision: found \"half\""},
         BadLine{"cost VEACH --precision float,", "names separated by commas"},
@@ -128,7 +100,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"cost VEACH --spp 8 --time 2", "found more than one"},
         BadLine{"cost VEACH --time 0", "--time: found 0"},
         BadLine{"cost VEACH --error 0.1", "--error"},
-        BadLine{"cost VEACH VEACH", "not expected"},
+        BadLine{"cost VEACH b", "found \"b\" after"},
         BadLine{"cost VEACH --json - --csv -", "standard output takes one"},
         BadLine{"integrate --pdf cosin", "Did you mean \"cosine\""},
         BadLine{"integrate --pdf hemi", "Did you mean \"hemisphere\""},
@@ -142,6 +114,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         EXPECT_EQ(outcome.exit, 2) << line.words << "\n" << outcome.error;
         EXPECT_NE(outcome.error.find(line.message), std::string::npos) << line.words << "\n"
                                                                        << outcome.error;
+        EXPECT_EQ(outcome.error.rfind("mis: ", 0), 0U) << line.words << "\n" << outcome.error;
         EXPECT_EQ(outcome.out, "") << line.words;
     }
 }
@@ -544,26 +517,59 @@ TEST(CommandLine, DrawsAndWipesItsProgressOnATerminalAlone)
     EXPECT_NE(shown.find("rank  strategy", wiped), std::string::npos);
 }
 
-TEST(Compare, RanksTheClassicsWhereNothingIsNamed)
+/// What stands in place of lists that are not given, where there are no more than 32 lights.
+std::vector<std::string> default_list(bool has_lobes)
 {
-    std::vector<std::string> expected;
-    for (const char* policy : {"uniform", "power", "solid-angle", "radiant-solid-angle", "all"})
+    std::vector<std::string> policies{"uniform", "power", "solid-angle", "radiant-solid-angle",
+                                      "all"};
+    if (has_lobes) policies.emplace_back("irradiance");
+    policies.emplace_back("product");
+    std::vector<std::string> names;
+    for (const std::string& policy : policies)
         for (const char* heuristic : {"light", "balance", "power"})
-            expected.push_back(std::string(policy) + "/" + heuristic);
-    expected.emplace_back("brdf");
-    const Outcome run = mis_with("compare '" + scene("veach") + "' '" + scene("single") +
-                                 "' --resolution 8x6 --spp 4 --json -");
+            names.push_back(policy + "/" + heuristic);
+    for (const char* name : {"all/light/union", "product/light/projected", "brdf"})
+        names.emplace_back(name);
+    return names;
+}
+
+std::vector<std::string> strategies_of(const nlohmann::json& scene)
+{
+    std::vector<std::string> names;
+    for (const auto& strategy : scene.at("strategies")) names.push_back(strategy.at("name"));
+    return names;
+}
+
+TEST(Compare, RanksItsDefaultListWhereNothingIsNamed)
+{
+    const Outcome run = mis_with("compare '" + scene("veach") + "' '" + scene("single") + "' '" +
+                                 scene("veach-blinn") + "' --resolution 8x6 --spp 4 --json -");
     ASSERT_EQ(run.exit, 0) << run.error;
     const auto json = nlohmann::json::parse(run.out);
-    ASSERT_EQ(json.at("scenes").size(), 2U);
-    for (const auto& scene : json.at("scenes")) {
-        std::vector<std::string> names;
-        for (const auto& strategy : scene.at("strategies")) names.push_back(strategy.at("name"));
-        EXPECT_EQ(names, expected);
-    }
-    const std::size_t told = run.error.find("left out:");
-    ASSERT_NE(told, run.error.npos);
-    EXPECT_EQ(run.error.find("left out:", told + 1), run.error.npos) << "once a run";
+    ASSERT_EQ(json.at("scenes").size(), 3U);
+    EXPECT_EQ(strategies_of(json.at("scenes")[0]), default_list(true));
+    EXPECT_EQ(strategies_of(json.at("scenes")[1]), default_list(false));
+    const std::size_t lobes = run.error.find(
+                          "left out: not ranked by default here; add "
+                          "--policy tree\n"),
+                      none = run.error.find("add --policy irradiance,tree\n");
+    ASSERT_NE(lobes, run.error.npos) << run.error;
+    EXPECT_NE(none, run.error.npos);
+    EXPECT_EQ(run.error.find("--policy tree", lobes + 60), run.error.npos) << "once a run";
+}
+
+TEST(Compare, RanksNoMoreThanTheListsThatAreNamed)
+{
+    const Outcome run = mis_with("compare '" + scene("single") + "' --resolution 8x6 --spp 4 " +
+                                 "--policy product --heuristic light --quiet --json -");
+    ASSERT_EQ(run.exit, 0) << run.error;
+    EXPECT_EQ(strategies_of(nlohmann::json::parse(run.out).at("scenes")[0]),
+              std::vector<std::string>{"product/light"});
+    const Outcome one = mis_with("compare '" + scene("single") + "' --resolution 8x6 --spp 4 " +
+                                 "--policy product --quiet --json -");
+    EXPECT_EQ(
+        strategies_of(nlohmann::json::parse(one.out).at("scenes")[0]),
+        (std::vector<std::string>{"product/light", "product/balance", "product/power", "brdf"}));
 }
 
 /// Mean and variance of every strategy of a report, to the last digit that is written.

@@ -42,7 +42,7 @@ std::vector<ShadingPoint> points_around(double size, Uniforms& uniforms,
     std::vector<ShadingPoint> points(size == 0 ? 1 : 64);
     for (ShadingPoint& p : points)
         p = {.x = around +
-                  Vec3<double>(uniforms.between(-size, size), 0, uniforms.between(-size, size))};
+                  Vec3<double>{uniforms.between(-size, size), 0, uniforms.between(-size, size)}};
     return points;
 }
 

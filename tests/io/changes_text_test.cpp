@@ -42,14 +42,15 @@ void expect_line(const std::string& start, const std::string& rest)
 
 TEST(ChangesText, HasAMarkAndARatioForEachStrategy)
 {
-    expect_line("! solid-angle/power", "1.5±");
+    expect_line("! solid-angle/power", "1.50±");
     expect_line("! radiant-solid-angle/balance", "was ranked, is biased");
     expect_line("! uniform/light", "was exact");
     expect_line("~ power/power/one-sample", "biased in both");
     expect_line("* brdf", "was not resolved, is not run");
     expect_line("* uniform/power", "gone; was ranked");
     expect_line("~ all/balance@4+1", "not run in both");
-    expect_line("~ solid-angle/power", "~±");  // of the other scene
+    expect_line("~ solid-angle/power", "~<");  // of the other scene
+    expect_line("! worse; * changed; ~ no change is seen; ~<9% it is below 9 %", "");
 }
 
 TEST(ChangesText, SaysInWordsWhatChanged)

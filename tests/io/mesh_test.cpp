@@ -201,14 +201,31 @@ const BadMesh bad_meshes[] = {
     {"PlyCountImpossible", "a.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\n" + ply_face,
      "", "element vertex 4000000000"},
     {"PlyCut", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n", "",
-     "ends early: 18 of at least 25 bytes"},
+     "ends early: 18 of at least 19 bytes"},
     {"PlyCutRow", "a.ply", ply_start + ply_face + "0.0 0.0 0.0\n1 0 0\n0 1 0\n3 0 1\n", "",
-     "ends early: 0 of 1 rows of \"face\""},
+     "ends early: 0 of 1 row of \"face\" are there"},
     {"PlyCutBinary", "a.ply",
      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float "
      "y\nproperty float z\n" +
-         ply_face + std::string(40, '\0'),
-     "", "ends early: 40 of at least 49 bytes"},
+         ply_face + std::string(36, '\0'),
+     "", "ends early: 36 of at least 37 bytes"},
+    {"PlyFaceOfTwoCorners", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n",
+     "line 13, column 1", "a face with 2 corners"},
+    {"PlyFaceOfOneCorner", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n1 0\n",
+     "line 13, column 1", "a face with 1 corner"},
+    {"PlyBinaryFaceWithoutCorners", "a.ply",
+     "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float "
+     "y\nproperty float z\n" +
+         ply_face + std::string(37, '\0'),
+     "face 0 (counted from 0), byte 205", "a face with 0 corners"},
+    {"PlyByteTooMany", "a.ply",
+     "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float "
+     "y\nproperty float z\n" +
+         ply_face + std::string(36, '\0') + "\3" + std::string(12, '\0') + "x",
+     "byte 218", "1 byte after the last row"},
+    {"ObjFaceOfOneCorner", "a.obj", three_vertices + "f 1\n", "line 4, column 1",
+     "a face with 1 corner"},
+    {"ObjVertexOfOneNumber", "a.obj", "v 0\n", "line 1, column 1", "\"v\" with 1 number"},
     {"PlyIndexOutOfRange", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n",
      "line 13, column 7", "out of range"},
     {"PlyIndexNegative", "a.ply", ply_start + ply_face + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n",

@@ -39,6 +39,9 @@ TEST(PredictJson, HasTheOuterShapeOfReports)
     const auto& scene = json["scenes"][0];
     EXPECT_EQ(scene["file"], "a,b.json");
     EXPECT_EQ(scene["lights"], 3);
+    EXPECT_EQ(scene["sentences"],
+              nlohmann::json({"At probe 0 power/balance/union@2+3 and brdf have the least "
+                              "variance, 0.667, equal within the bounds of error."}));
     const auto& strategy = scene["strategies"][0];
     EXPECT_EQ(strategy["name"], "power/balance/union@2+3");
     EXPECT_EQ(strategy["technique"], "union");
@@ -74,6 +77,7 @@ TEST(PredictText, SaysWhyThereAreNoFigures)
     EXPECT_NE(text.find("power/balance/union@2+3"), std::string::npos) << text;
     EXPECT_NE(text.find("0.6666667"), std::string::npos) << text;
     EXPECT_NE(text.find("probe 1: surface 1 is a quad"), std::string::npos) << text;
+    EXPECT_TRUE(text.ends_with("equal within the bounds of error.\n")) << text;
 }
 
 }  // namespace

@@ -52,6 +52,8 @@ Report full_report()
     SceneReport& scene = report.scenes[0];
     scene.file = "été's.json";
     scene.lacks_audit = scene.partial = true;
+    scene.decided = false, scene.seconds_to_decide = 12.5;
+    scene.strategies[1].may_be_best = true, scene.strategies[0].behind_at_most = 0.25;
     scene.triangles = 12, scene.background_pixels = 3;
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     scene.effects.clear();
@@ -175,10 +177,12 @@ TEST(ReportRead, TakesOlderReportsAndClaimsNothingForThem)
 
     Json json = Json::parse(report_json(full_report()));
     for (Json& scene : json["scenes"]) {
-        scene.erase("lacks_audit");
+        for (const char* key : {"lacks_audit", "decided", "leader", "decided_of_one_light",
+                                "leader_of_one_light", "seconds_to_decide"})
+            scene.erase(key);
         for (Json& s : scene["strategies"])
-            for (const char* key :
-                 {"resolving_factor", "least_growth", "first_invalid", "timed_rounds"})
+            for (const char* key : {"resolving_factor", "least_growth", "first_invalid",
+                                    "timed_rounds", "may_be_best", "behind_at_most"})
                 s.erase(key);
     }
     const Report read = parse_report(json.dump(), "x");
@@ -186,8 +190,12 @@ TEST(ReportRead, TakesOlderReportsAndClaimsNothingForThem)
     EXPECT_FALSE(read.scenes[0].strategies[0].first_invalid);
     EXPECT_EQ(read.scenes[0].strategies[4].least_growth.variance, 1);
     EXPECT_EQ(read.scenes[0].strategies[1].timed_rounds, 0);
-    const std::string said = report_text(read);
-    EXPECT_NE(said.find("gave 3 samples that are no numbers"), said.npos);
+    EXPECT_FALSE(read.scenes[1].decided);
+    const std::string said = report_text(read, {.columns = 1000, .is_verbose = true});
+    EXPECT_NE(said.find("Use uniform/light: "), said.npos);  // the first that it ranks
+    EXPECT_EQ(said.find("Not decided: "), said.npos);
+    EXPECT_EQ(said.find("decide.\n"), said.npos);
+    EXPECT_NE(said.find("gave 3 samples that are NaN or infinite"), said.npos);
     EXPECT_EQ(said.find("mis replay"), said.npos);
 }
 

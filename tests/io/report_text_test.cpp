@@ -62,6 +62,67 @@ TEST(ReportText, ShowsTheTableByRankWithTiesMarked)
     EXPECT_NE(text.find("±"), std::string::npos);
 }
 
+/// Words are broken between lines alone: what any two lines hold is in the text as it was.
+TEST(ReportText, FitsTheWidthThatATerminalHas)
+{
+    for (const std::size_t columns : {40U, 60U, 80U, 100U, 132U})
+        for (const bool is_verbose : {false, true})
+            for (const std::string& line : lines_of(
+                     report_text(sample_report(), {.columns = columns, .is_verbose = is_verbose})))
+                EXPECT_LE(width_of(line), columns) << line;
+    const std::string wide = scene_text(sample_scene("plates"), sample_report(), {.columns = 132});
+    EXPECT_NE(line_with(wide, "rank  strategy").find("efficiency"), std::string::npos) << wide;
+    EXPECT_NE(line_with(scene_text(sample_scene("plates"), {}), "effic.").find("effic."),
+              std::string::npos);
+}
+
+TEST(ReportText, EndsWithTheAnswerAndHasTroublesBeforeIt)
+{
+    const SceneReport scene = sample_scene("plates");
+    const std::string text = scene_text(scene, sample_report());
+    const std::size_t answer = text.find("\nUse ");
+    ASSERT_NE(answer, std::string::npos) << text;
+    for (const char* before : {"rank  strategy", "= tied with another", "not resolved", "not run"})
+        EXPECT_LT(text.rfind(before), answer) << before << "\n" << text;
+    EXPECT_LE(lines_of(text.substr(answer)).size(), 24U) << text;
+}
+
+TEST(ReportText, HasOneSentenceForEachKindOfTroubleAndItsReasonsOnRequest)
+{
+    SceneReport scene = sample_scene("plates");
+    scene.strategies.push_back(scene.strategies[4]);
+    scene.strategies.back().strategy = parse_strategy("hemisphere");
+    const std::string brief = scene_text(scene, sample_report()),
+                      verbose = scene_text(scene, sample_report(), {.is_verbose = true});
+    EXPECT_NE(
+        brief.find("2 strategies are not resolved: brdf and hemisphere (--verbose says why)."),
+        std::string::npos)
+        << brief;
+    EXPECT_NE(brief.find("power/power/one-sample is biased (--verbose says why)."),
+              std::string::npos)
+        << brief;
+    EXPECT_EQ(brief.find("said \"enough\""), std::string::npos) << brief;
+    EXPECT_NE(verbose.find("all/balance@4+1 was not run: its budget is past, said \"enough\""),
+              std::string::npos)
+        << verbose;
+    EXPECT_EQ(verbose.find("--verbose"), std::string::npos) << verbose;
+}
+
+TEST(ReportText, HasBoldAndColourWhereTheyAreWanted)
+{
+    const Report report = sample_report();
+    const std::string plain = report_text(report),
+                      styled = report_text(report, {.has_style = true});
+    EXPECT_EQ(plain.find('\x1b'), std::string::npos);
+    EXPECT_NE(styled.find("\x1b[1;32mUse "), std::string::npos) << styled;
+    std::string bare;
+    for (std::size_t i = 0; i < styled.size(); ++i) {
+        if (styled[i] == '\x1b') i = styled.find('m', i);
+        else bare += styled[i];
+    }
+    EXPECT_EQ(bare, plain) << "style takes no room";
+}
+
 TEST(ReportText, HasTheRankingByItself)
 {
     const SceneReport scene = sample_scene("plates");

@@ -45,14 +45,10 @@ inline SceneReport sample_scene(const std::string& name, std::uint64_t seed = 1)
     scene.surfaces = 7;
     scene.width = scene.height = 8;
     scene.shading_points = 64;
-    scene.replicates = ranking.replicates;
     scene.epsilon = 0.01;
-    scene.settled = ranking.settled;
-    scene.seconds = 1.5;
     scene.effects = {{"shadows", true, 0.8, "surfaces lie between points and lights", 0, 0},
                      {"horizon", false, 0, "no light is cut", 0.2, 1e-9}};
-    scene.strategies = std::move(ranking.strategies);
-    scene.pairs = std::move(ranking.pairs);
+    put_ranking(std::move(ranking), 1.5, scene);
     return scene;
 }
 

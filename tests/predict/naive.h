@@ -82,6 +82,12 @@ public:
     }
 
 private:
+    /// One number after the other: the order of arguments is the compiler's choice.
+    Vec draw_from_bsdf()
+    {
+        const double v = uniform(), u = uniform();
+        return draw_(wo_, uniform(), {u, v});
+    }
     double uniform() { return std::generate_canonical<double, 53>(random_); }
     std::size_t index(int j) const { return static_cast<std::size_t>(j); }
 
@@ -153,7 +159,7 @@ private:
     }
     double bsdf_draw()
     {
-        const Vec local = draw_(wo_, uniform(), Vec2<double>(uniform(), uniform()));
+        const Vec local = draw_from_bsdf();
         if (!(local.z > 0)) return 0;
         const Vec w = frame_.to_world(local);
         const Hit hit = nearest(w);
@@ -187,8 +193,7 @@ private:
     double alone()
     {
         Vec local;
-        if (s_.technique == "brdf")
-            local = draw_(wo_, uniform(), Vec2<double>(uniform(), uniform()));
+        if (s_.technique == "brdf") local = draw_from_bsdf();
         const double phi = 2 * std::numbers::pi * uniform(), u = uniform();
         if (s_.technique == "cosine")
             local =

@@ -94,8 +94,13 @@ inline Scene random_scene(unsigned seed)
     };
     Material material;
     material.type = std::vector<std::string>{"lambert", "blinn", "ggx", "lecture"}[seed % 4];
-    material.diffuse = Vec3<double>(u(0.05, 0.5), u(0.05, 0.5), 0.2);
-    if (seed % 4 != 0) material.specular = Vec3<double>(u(0.1, 0.5), 0.3, u(0.1, 0.5));
+    // One draw after the other: the order of arguments is the compiler's choice.
+    const double green = u(0.05, 0.5), red = u(0.05, 0.5);
+    material.diffuse = {red, green, 0.2};
+    if (seed % 4 != 0) {
+        const double blue = u(0.1, 0.5);
+        material.specular = {u(0.1, 0.5), 0.3, blue};
+    }
     material.exponent = std::pow(10, u(0, 2.7));
     material.alpha = u(0.03, 0.7);
     Scene scene;

@@ -221,9 +221,10 @@ TEST(RunningSum, ChoosesManyAsItChoosesOne)
             for (double& w : weights) w = uniforms() < 0.4 ? 0 : uniforms.log_between(1e-12, 1e3);
             const OwnedSum owned(weights);
             std::vector<std::uint64_t> bits{0, ~std::uint64_t{0}};
-            for (int i = uniforms.below(40); i > 0; --i)
-                bits.push_back(static_cast<std::uint64_t>(uniforms() * 0x1p32) << 32 |
-                               static_cast<std::uint64_t>(uniforms() * 0x1p32));
+            for (int i = uniforms.below(40); i > 0; --i) {
+                const auto high = static_cast<std::uint64_t>(uniforms() * 0x1p32);
+                bits.push_back(high << 32 | static_cast<std::uint64_t>(uniforms() * 0x1p32));
+            }
             std::size_t seen = 0;
             owned.table.choose_many<TestLanes<double>>(bits, [&](std::size_t i, const Choice& c) {
                 EXPECT_EQ(i, seen++);

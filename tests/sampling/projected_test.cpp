@@ -263,8 +263,9 @@ template <class V> void expect_lanes_project_alike()
         std::array<Cap<S>, lane_count<V>> cap;
         std::array<Vec2<S>, lane_count<V>> u;
         for (std::size_t i = 0; i < cap.size(); ++i) {
-            cap[i] = cap_over_horizon<S>(uniforms.log_between(1e-6, 0.99),
-                                         uniforms.between(-0.99, 1.5) < 0 ? -0.5 : 1.01, 1);
+            const double sin_max = uniforms.log_between(1e-6, 0.99);
+            cap[i] =
+                cap_over_horizon<S>(sin_max, uniforms.between(-0.99, 1.5) < 0 ? -0.5 : 1.01, 1);
             if (i % 2 == 0) cap[i] = cap_over_horizon<S>(0.3, uniforms.between(-0.9, 0.9), 2);
             u[i] = {static_cast<S>(uniforms()), static_cast<S>(uniforms())};
         }

@@ -328,6 +328,26 @@ TEST(NearestName, OffersWhatWasProbablyMeantAndNothingElse)
     EXPECT_EQ(nearest_name("l", material_type_names), "");
     EXPECT_EQ(nearest_name("mirror", material_type_names), "");
     EXPECT_EQ(nearest_name("", material_type_names), "");
+
+    constexpr std::array<std::string_view, 5> options{"--help", "--quiet", "--out", "--sampler",
+                                                      "-n"};
+    EXPECT_EQ(nearest_name("--seed", options), "") << "two of four letters and the dashes";
+    EXPECT_EQ(nearest_name("--sobol", options), "");
+    EXPECT_EQ(nearest_name("--sampl", options), "--sampler");
+    EXPECT_EQ(nearest_name("--hlep", options), "--help");
+    EXPECT_EQ(nearest_name("quite", options), "--quiet");
+    EXPECT_EQ(nearest_name("--output", options), "--out") << "it begins so";
+    EXPECT_EQ(nearest_name("--", options), "");
+}
+
+TEST(Text, CountsInWordsThatAgree)
+{
+    EXPECT_EQ(many(1, "light"), "1 light");
+    EXPECT_EQ(many(0, "light"), "0 lights");
+    EXPECT_EQ(many(2, "mesh"), "2 meshes");
+    EXPECT_EQ(many(3, "vertex"), "3 vertices");
+    EXPECT_EQ(many(4, "strategy"), "4 strategies");
+    EXPECT_EQ(many(5, "ray"), "5 rays");
 }
 
 TEST(Text, WritesTheShortestNumberThatReadsBack)

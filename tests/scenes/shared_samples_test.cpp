@@ -54,7 +54,7 @@ TEST_P(SharedOnScenes, AgreeWithOwnSamples)
     const std::vector<Strategy> strategies = strategies_of_scenes();
     const bool has_many = scene.lights.size() > 50;  // which `all` draws for each sample
     const auto spp = static_cast<std::uint64_t>(scaled(has_many ? 128 : 1024));
-    const Study own = run_study(lit, strategies, {.spp = spp}, executor);
+    const Study own = run_study(lit, strategies, {.own_samples = true, .spp = spp}, executor);
     const StudyPoints& ground = *own.points;
     std::vector<SharedPoint> points;
     for (std::size_t p = 0; p < ground.figure_lit; ++p)
@@ -78,7 +78,7 @@ TEST_P(SharedOnScenes, AgreeWithOwnSamples)
             continue;  // nor by them: they never met what matters
         const double n = static_cast<double>(points.size());
         if (variance / n < 1e-9 * std::pow(own.report.strategies[s].mean, 2)) continue;  // rounding
-        const SharedVariance found = shared.mean(s);
+        const ValueAndError found = shared.mean(s);
         const double se = std::hypot(std::sqrt(squares) / n, found.se);
         EXPECT_NEAR(found.value, variance / n, bound * se) << name_of(strategies[s]);
         resolved += se < 0.1 * variance / n;

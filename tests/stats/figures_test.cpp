@@ -1,5 +1,6 @@
 #include "mis/stats/figures.h"
 
+#include "mis/math/limits.h"
 #include "tests/support/simulated.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,44 @@ TEST(Ratios, ArePairedSoThatADriftingClockTouchesAllAlike)
     EXPECT_GT(alone.high / alone.low, 1.3);  // the twin
 }
 
+/// a and b take part in all rounds, c in the first four alone, as where it rests; the machine is
+/// slower then.
+std::vector<Figures> with_one_that_rests(std::uint64_t seed)
+{
+    Random bits(seed);
+    std::normal_distribution<double> noise(0, 0.02), drift(0, 0.5);
+    std::vector<Figures> figures(3);
+    for (int round = 0; round < 100; ++round) {
+        const double slow = drift(bits) + (round < 4 ? 1 : 0);
+        for (std::size_t s = 0; s < 3; ++s) {
+            const double seconds = 0.1 * static_cast<double>(s) + slow + noise(bits);
+            figures[s].exact = true;
+            if (s == 2 && round >= 4) continue;
+            figures[s].rounds.push_back(static_cast<std::uint32_t>(round));
+            figures[s].seconds_at.push_back(std::exp(seconds));
+            figures[s].seconds_to_1_percent.push_back(figures[s].seconds_at.back());
+        }
+    }
+    return figures;
+}
+
+TEST(Ratios, TakeTheRoundsThatAStrategyTookPartIn)
+{
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        std::vector<Figures> figures = with_one_that_rests(seed);
+        remove_drift(figures);
+        EXPECT_EQ(figures[0].time_noise_dof, 204 - 3 - 100 + 1);
+        EXPECT_NEAR(figures[0].time_noise, 0.02, 0.006);
+        const LogEstimate awake = log_cost_ratio(figures[1], figures[0]),
+                          rested = log_cost_ratio(figures[2], figures[0]);
+        EXPECT_NEAR(awake.value, 0.1, 0.02);
+        EXPECT_LT(awake.se, 0.006);  // of 100 rounds
+        EXPECT_NEAR(rested.value, 0.2, 0.06);
+        EXPECT_GT(rested.se, 0.01);  // of four
+        EXPECT_LT(rested.se, 0.03);
+    }
+}
+
 // 2000 runs of 8 equally fast strategies, 3 rounds each, on a machine whose speed changes by half
 // from round to round. At 5 % the first two are called apart in at most that many (fewer, as a
 // median is judged a little too strictly); the bound is passed by chance once in 3 million.
@@ -79,6 +118,7 @@ TEST(Ratios, OfFewRoundsAreJudgedByTheNoiseOfAllAndNotByTheDrift)
         for (int round = 0; round < 3; ++round) {
             const double slow = drift(bits);
             for (Figures& f : figures) {
+                f.rounds.push_back(static_cast<std::uint32_t>(round));
                 f.seconds_at.push_back(std::exp(slow + noise(bits)));
                 f.seconds_to_1_percent.push_back(f.seconds_at.back());
             }

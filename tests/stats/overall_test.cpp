@@ -15,8 +15,7 @@ SceneReport scene_with(std::vector<StrategyMeasurements> strategies)
 {
     Ranking ranking = rank({.points = 64, .strategies = std::move(strategies)}, {});
     SceneReport scene;
-    scene.strategies = std::move(ranking.strategies);
-    scene.pairs = std::move(ranking.pairs);
+    put_ranking(std::move(ranking), 1, scene);
     return scene;
 }
 

@@ -157,14 +157,20 @@ TEST(Strategy, AnUnknownNameGetsTheNearestAndTheList)
         EXPECT_NE(refusal(name), "") << "\"" << name << "\" is taken";
 }
 
-TEST(Strategy, RankedByDefaultAreTheClassicsOnEveryScene)
+TEST(Strategy, RankedByDefaultAreTheClassicsAndWhatKnowsMoreWhereItDiffers)
 {
     using testing::ElementsAre;
     for (const std::size_t lights : {0, 1, 2, 32, 33, 1'000'000})
         for (const bool has_lobes : {false, true}) {
-            EXPECT_THAT(
-                ranked_by_default(policy_names(), lights, has_lobes),
-                ElementsAre("uniform", "power", "solid-angle", "radiant-solid-angle", "all"));
+            std::vector<std::string> expected{"uniform", "power", "solid-angle",
+                                              "radiant-solid-angle", "all"};
+            if (has_lobes) expected.push_back("irradiance");
+            expected.push_back("product");
+            if (lights > 32) expected.push_back("tree");
+            EXPECT_EQ(ranked_by_default(policy_names(), lights, has_lobes), expected);
+            EXPECT_THAT(strategies_ranked_by_default(lights, has_lobes),
+                        testing::UnorderedElementsAre("all/light/union", "product/light/projected",
+                                                      "brdf"));
             EXPECT_THAT(ranked_by_default(heuristic_names(), lights, has_lobes),
                         ElementsAre("light", "balance", "power"));
             EXPECT_THAT(ranked_by_default(technique_names(), lights, has_lobes),

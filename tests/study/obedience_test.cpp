@@ -5,6 +5,7 @@
 #include "mis/strategy/names.h"
 #include "mis/study/affordable.h"
 #include "mis/study/explain.h"
+#include "mis/study/rounds.h"
 #include "mis/study/study.h"
 #include "mis/study/study_audit.h"
 #include "tests/support/scenes.h"
@@ -156,6 +157,38 @@ TEST(Stopping, ARoundThatWasStoppedDoesNotCount)
     EXPECT_FALSE(round(some.token()));
     EXPECT_EQ(run.samples(), 2000U);
     EXPECT_GE(run.results()[0].luminance.count, 2000U);
+}
+
+TEST(Rounds, AreTimedForThoseThatDoNotRest)
+{
+    StoppableGround stoppable(stacked_scene(3));
+    std::vector<std::unique_ptr<StrategyRun>> runs;
+    for (const char* name : {"uniform/power", "power/light"})
+        runs.push_back(std::make_unique<StrategyRun>(stoppable.lit, stoppable.points,
+                                                     parse_strategy(name), 1));
+    const StudyGround ground = stoppable.until({});
+    StudyRounds rounds(ground, runs, [](std::size_t, double) {});
+    RoundOptions how{.tile_factors = std::vector(stoppable.points.shading.tiles.size(), 1.0),
+                     .rests = {false, false}};
+    const SamplePlan plan{.replicates = 2};
+    rounds.take(2, plan, how);
+    how.rests = {false, true};
+    rounds.take(2, plan, how);
+    const std::vector<double> ones(stoppable.points.shading.points.size(), 1.0);
+    const RelativeScale scale{0, ones, ones, {}};
+    const auto times_of = [&](int s) { return runs[s]->measurements(scale).times; };
+    rounds.take(2, plan, how);
+    ASSERT_EQ(times_of(0).size(), 3U);
+    ASSERT_EQ(times_of(1).size(), 1U);
+    EXPECT_EQ(times_of(0)[0].round, times_of(1)[0].round);
+    EXPECT_LT(times_of(0)[1].round, times_of(0)[2].round);
+    how.apart = {{.observations = 1, .parts = 2}, {.observations = 1}};
+    how.rests = {false, false};
+    rounds.take(2, plan, how);
+    ASSERT_EQ(times_of(0).size(), 5U);  // each part of the tiles by itself
+    EXPECT_GE(times_of(0)[3].round, of_no_round);
+    ASSERT_EQ(times_of(1).size(), 2U);
+    EXPECT_EQ(times_of(1)[1].round, times_of(0)[2].round + 1);
 }
 
 TEST(Stopping, AStudyReportsWhatItHasAndThatItIsPartial)

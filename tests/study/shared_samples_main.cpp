@@ -54,7 +54,7 @@ int measure(const std::string& file, std::size_t most_points, int rounds,
                "rel. error × √directions");
     for (std::size_t s = 0; s < strategies.size(); ++s) {
         // Directions of one point: the error of the mean over N points is that of N times as many.
-        const SharedVariance v = shared.mean(s);
+        const ValueAndError v = shared.mean(s);
         const double relative = v.se / std::abs(v.value);
         fmt::print("{:32} {:12.5g} {:10.2g} {:28.2f}{}\n", name_of(strategies[s]), v.value,
                    relative, relative * std::sqrt(directions),

@@ -141,7 +141,7 @@ TEST(SharedSamples, OfManyLightsAgreeWithOwnSamples)
     const double bound = 1.2 * z_bound(false_alarm, static_cast<int>(strategies.size()));
     for (std::size_t s = 0; s < strategies.size(); ++s) {
         const Moments& moments = own.runs[s]->results()[0].luminance;
-        const SharedVariance found = shared.at(s, 0);
+        const ValueAndError found = shared.at(s, 0);
         EXPECT_NEAR(found.value, moments.variance(),
                     bound * std::hypot(found.se, moments.variance_se()))
             << name_of(strategies[s]);
@@ -167,7 +167,7 @@ TEST(SharedSamples, AgreeWithTheScalarTwin)
     const double bound =
         1.5 * z_bound(false_alarm, static_cast<int>(strategies.size()));  // errors from 8 groups
     for (std::size_t s = 0; s < strategies.size(); ++s) {
-        const SharedVariance found = shared.mean(s);
+        const ValueAndError found = shared.mean(s);
         EXPECT_NEAR(found.value, twin[s].variance,
                     bound * std::hypot(found.se, twin[s].variance_se))
             << name_of(strategies[s]);

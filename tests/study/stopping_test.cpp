@@ -30,13 +30,6 @@ SceneReport found(const std::vector<StrategyReport>& strategies, bool settled = 
     return scene;
 }
 
-PairReport pair_of(int a, int b, Verdict verdict)
-{
-    PairReport pair;
-    pair.a = a, pair.b = b, pair.verdict = verdict;
-    return pair;
-}
-
 constexpr StudyGoal until_settled{};
 
 TEST(Stopping, EndsOnceItIsSettledAndNobodyIsWorthWaitingFor)
@@ -66,18 +59,37 @@ TEST(Stopping, WithAnErrorWaitsForEveryRankedVariance)
     EXPECT_TRUE(is_enough(found({not_resolved(1e9)}), within_10_percent, 31));
 }
 
-TEST(Stopping, RestsThoseThatNoUndecidedPairNeeds)
+/// The ends of its variance's interval, and whether it may be best.
+StrategyReport standing(double low, double high, bool may_be_best)
 {
-    SceneReport scene = found({ranked(0.9, 1.1), ranked(0.9, 1.1), ranked(0.9, 1.1)});
-    scene.pairs = {pair_of(0, 1, Verdict::apart), pair_of(1, 2, Verdict::undecided)};
-    EXPECT_EQ(resting(scene, until_settled, 5), (std::vector<bool>{true, false, false}));
-    scene.pairs[1].verdict = Verdict::tied;
-    EXPECT_EQ(resting(scene, until_settled, 5), (std::vector<bool>{false, false, false}));
+    StrategyReport s = ranked(low, high);
+    s.may_be_best = may_be_best;
+    return s;
 }
 
-TEST(Stopping, ThenRestsAllButThoseThatMayYetBeResolved)
+TEST(Stopping, RestsWhatCannotWinOnceItsVarianceIsKnown)
 {
-    const SceneReport scene = found({ranked(0.9, 1.1), not_resolved(2), not_resolved(1000)});
+    SceneReport scene = found({standing(0.9, 1.1, true), standing(0.9, 1.1, true),
+                               standing(0.9, 1.1, false), standing(0.6, 1.6, false)},
+                              false);
+    EXPECT_EQ(resting(scene, until_settled, 5), (std::vector<bool>{false, false, true, false}));
+    scene.decided = true;
+    EXPECT_EQ(resting(scene, until_settled, 5), (std::vector<bool>{true, true, true, false}));
+    scene.strategies[0].variance = {1, 0.74, 1.3};  // ± 28 %
+    EXPECT_EQ(resting(scene, until_settled, 5), (std::vector<bool>{false, true, true, false}));
+}
+
+TEST(Stopping, RestsNobodyWhereNobodyIsNeeded)
+{
+    SceneReport scene = found({standing(0.9, 1.1, true), standing(0.9, 1.1, false)});
+    scene.decided = true;
+    EXPECT_EQ(resting(scene, until_settled, 5), (std::vector<bool>{false, false}));
+}
+
+TEST(Stopping, LetsThoseGoOnThatMayYetBeResolved)
+{
+    SceneReport scene = found({standing(0.9, 1.1, true), not_resolved(2), not_resolved(1000)});
+    scene.decided = true;
     EXPECT_EQ(resting(scene, until_settled, 5), (std::vector<bool>{true, false, true}));
     EXPECT_EQ(resting(scene, until_settled, 20), (std::vector<bool>{false, false, false}));
 }

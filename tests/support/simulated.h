@@ -74,7 +74,8 @@ inline StrategyMeasurements simulate(const std::string& policy, const SampleOf& 
         s.region_means.push_back(regions);
         s.region_variances.push_back(region_variances);
         const double late = 1 + sim.clock_noise * delay(bits);
-        s.times.push_back({sim.seconds_per_sample * late, sim.seconds_per_point * late});
+        s.times.push_back({sim.seconds_per_sample * late, sim.seconds_per_point * late,
+                           static_cast<std::uint32_t>(r)});
     }
     s.pooled = pool_points(merged, scale);
     for (std::size_t region = 0; region < sim.regions; ++region) {

@@ -90,6 +90,7 @@ TEST(HitSphere, KeepsItsDigitsFarAwayAndCloseBy)
     EXPECT_NEAR(hit_sphere({0, 0, 0}, {0, 0, 1}, {0, 0, 1e8}, 1), 1e8 - 1, 1e-7);
     EXPECT_NEAR(hit_sphere({0, 0, 1 + 1e-9}, {0, 0, -1}, {0, 0, 0}, 1) * 1e9, 1, 1e-6);
     EXPECT_EQ(hit_sphere({0, 0, 1 + 1e-9}, {0, 0, 1}, {0, 0, 0}, 1), no_hit);
+    EXPECT_EQ(hit_sphere({0, 0, 1}, {1, 0, 0}, {0, 0, 0}, 1), no_hit);  // 0 is not divided by 0
 }
 
 /// A ray that starts at x plus its offset misses the surface that x lies on, whichever way it

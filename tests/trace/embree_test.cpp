@@ -71,10 +71,11 @@ bool answers_differ_around(const Vec3<double>& origin, const Vec3<double>& direc
 {
     Uniforms uniforms(62);
     const auto usual = answer(origin, direction);
-    for (int i = 0; i < 60; ++i)
-        if (answer(origin + uniforms.direction() * edge,
-                   normalized(direction + uniforms.direction() * edge)) != usual)
+    for (int i = 0; i < 60; ++i) {
+        const Vec3<double> beside = origin + uniforms.direction() * edge;
+        if (answer(beside, normalized(direction + uniforms.direction() * edge)) != usual)
             return true;
+    }
     return false;
 }
 

@@ -59,9 +59,10 @@ std::vector<LightCase> cases()
     const auto cloud = [&](int n, double extent, double least, double largest,
                            Vec3<double> around = Vec3<double>(0)) {
         Lights lights;
-        for (int i = 0; i < n; ++i)
-            lights.push_back(
-                sphere_at(around + uniforms.in_box(extent), uniforms.log_between(least, largest)));
+        for (int i = 0; i < n; ++i) {
+            const Vec3<double> center = around + uniforms.in_box(extent);
+            lights.push_back(sphere_at(center, uniforms.log_between(least, largest)));
+        }
         return lights;
     };
     std::vector<LightCase> list{

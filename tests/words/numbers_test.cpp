@@ -19,6 +19,8 @@ TEST(Words, ShowNumbersShort)
     EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "infinite");
     EXPECT_EQ(number(-2.5), "-2.5");
     EXPECT_EQ(count(1048576), "1048576");
+    EXPECT_EQ(counted(1, "sample"), "1 sample");
+    EXPECT_EQ(counted(256, "sample"), "256 samples");
     EXPECT_EQ(percent(0.02), "2 %");
     EXPECT_EQ(percent(0.123), "12 %");
 }
@@ -44,6 +46,10 @@ TEST(Words, ShowDurations)
     EXPECT_EQ(duration(90), "90 s");
     EXPECT_EQ(duration(600), "10 min");
     EXPECT_EQ(duration(9000), "2.5 h");
+    EXPECT_EQ(duration({0.125, 0.118, 0.132}), "125 ± 7 ms");
+    EXPECT_EQ(duration({8, 5, 13}), "8 (5 to 13) s");
+    EXPECT_EQ(duration({8, 8, 8}), "8 s");
+    EXPECT_EQ(duration({8, std::numeric_limits<double>::quiet_NaN(), 9}), "8 s");
 }
 
 TEST(Words, ListNames)

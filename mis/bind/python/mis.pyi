@@ -106,7 +106,7 @@ def compare(
     sampler: str = "independent",
     threads: int = 0,
 ) -> dict[str, Any]:
-    """Ranks strategies: mis-report/1. Until settled or 30 s, or as far as `spp`, `seconds` or `error` says. sampler: "sobol" measures
+    """Ranks strategies: mis-report/1. Until it is decided which to use or 30 s, or as far as `spp`, `seconds` or `error` says. sampler: "sobol" measures
     variances over scramblings of `at` samples each."""
 
 def predict(

@@ -37,10 +37,10 @@ const ranked = (scene) => scene.strategies.filter(is_ranked);
 const by_name = (scene, name) => scene.strategies.find((s) => s.name === name);
 const status_words = { not_run: "not run", not_resolved: "not resolved", biased: "biased" };
 
-/// The strategy to use: soonest at 1 % error; without times, of least variance.
+/// The strategy to use: what the report says; in older ones soonest at 1 % error, without times of least variance.
 function best_of(scene) {
   const time = (s) => s.seconds_to_1_percent ?? Infinity;
-  return ranked(scene).sort((a, b) => time(a) - time(b) || a.rank - b.rank)[0];
+  return ranked(scene).find((s) => s.name === scene.leader) ?? ranked(scene).sort((a, b) => time(a) - time(b) || a.rank - b.rank)[0];
 }
 /// Those that the strategy is neither apart from nor tied with, in variance.
 const undecided_with = (scene, s) => scene.pairs.filter((p) => p.verdict === "undecided" && (p.a === s.name || p.b === s.name)).map((p) => p.a === s.name ? p.b : p.a);

@@ -5,7 +5,7 @@ function draw_run() {
     ["Command", report.command, "code"], ["Scene", s.file], ["Program", `mis ${report.version}, ${report.instruction_set} kernels`], ["Machine", `${report.machine}; ${report.threads} ${report.threads === 1 ? "thread" : "threads"}`], ["Seed", String(report.seed)],
     ["Shading points", number(s.shading_points) + (s.resolution ? ` of ${s.resolution[0]} × ${s.resolution[1]} pixels (${number(s.background_pixels)} background)` : " (probes)")],
     ["Samples", samples_words(s)], ["Replicates", `${s.replicates} independent repetitions, which the intervals come from`],
-    ["Took", duration(s.seconds) + (s.settled ? ", settled: every pair is apart or tied" : ", not settled: some pairs are undecided") + (s.partial ? ", stopped early" : "")],
+    ["Took", duration(s.seconds) + (s.settled ? ", settled: it is decided which to use, and every variance is known to ± 25\u00a0%" : s.decided ? ", decided which to use; some variances are not known to ± 25\u00a0%" : ", not decided which to use") + (s.partial ? ", stopped early" : "")],
   ];
   $("run").replaceChildren(...lines.flatMap(([what, value, className]) => [make("dt", {}, what), make("dd", { className: className ?? "" }, className === "code" ? command_text(value) : make("bdi", {}, value))]));
   $("at").textContent = number(report.at);

@@ -28,11 +28,11 @@ function draw_tiles(scene, best) {
   const compared = (what, s) => { const x = sooner(scene, best.name, s.name); if (x) tiles.push(tile(what, number(x.value) + " ×", [x.value < 1.05 ? "as soon as " : "sooner than ", name_text(s.name), `; 95\u00a0%: ${between(x)}`])); };
   if (others.length > 0) compared("Against the next best", others[0]);
   if (others.length > 1) compared("Against the slowest", others[others.length - 1]);
-  const open = scene.pairs.filter((p) => p.a === best.name || p.b === best.name).map((p) => ({ name: p.a === best.name ? p.b : p.a, verdict: best.seconds_to_1_percent === null ? p.verdict : p.time_verdict }));
-  const undecided = open.filter((o) => o.verdict === "undecided"), tied = open.filter((o) => o.verdict === "tied");
+  const count = ranked(scene).length - 1, rivals = ranked(scene).filter((s) => s !== best && s.may_be_best).length;
   const not_ranked = scene.strategies.length - ranked(scene).length, others_not_ranked = not_ranked > 0 ? `; ${not_ranked} more are not ranked` : "";
-  tiles.push(tile("How sure", undecided.length === open.length && open.length > 0 ? "not yet" : undecided.length > 0 ? `sure, but for ${undecided.length}` : tied.length > 0 ? "tied" : open.length === 0 ? "alone" : "sure",
-    (undecided.length > 0 ? `${undecided.length} of ${open.length} others may be as good` + (undecided.length < open.length ? "; not behind the rest, at 95\u00a0%" : "") : tied.length > 0 ? `${tied.length} of ${open.length} others as good` : open.length === 0 ? "no other is ranked" : `ahead of all ${open.length} others, at 95\u00a0%`) + (open.length > 0 ? others_not_ranked : "")));
+  const may_be = `${rivals} of ${count} others may be better`, more = scene.seconds_to_decide > 0 ? `; about ${duration(scene.seconds_to_decide)} more would decide` : "";
+  tiles.push(tile("How sure", count === 0 ? "alone" : scene.decided ? "sure" : "not decided",
+    (count === 0 ? "no other is ranked" : !scene.decided ? may_be + more : rivals > 0 ? `at most 5\u00a0% behind any other, at 95\u00a0%; ${may_be}` : `not behind any of ${count} others, at 95\u00a0%`) + (count > 0 ? others_not_ranked : "")));
   $("tiles").replaceChildren(...tiles);
 }
 
