@@ -6,7 +6,8 @@ namespace mis {
 
 /// Σ over points of V/(μ² + ε²), where V and μ are both estimated from the same directions: taken
 /// to second order, so that it is not off by what these estimates have in common, nor by the
-/// curvature of 1/(μ² + ε²) (docs/theory.md (84); Cochran 1977, §6.4).
+/// curvature of 1/(μ² + ε²) (docs/theory.md (87) and (88); Cochran
+/// 1977, §6.4).
 class RelativeSum {
 public:
     explicit RelativeSum(double epsilon) : epsilon2_(epsilon * epsilon) {}
