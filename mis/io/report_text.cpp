@@ -23,7 +23,9 @@ std::string heading(const SceneReport& scene, const Report& report, const TextLo
     if (scene.width > 0) text += fmt::format("{}x{}, ", scene.width, scene.height);
     text += fmt::format("{}, {}, {}, {}", many(scene.shading_points, "shading point"),
                         many(scene.lights, "light"), many(scene.surfaces, "surface"),
-                        many(static_cast<std::size_t>(scene.replicates), "replicate"));
+                        scene.directions > 0
+                            ? many(scene.directions, "shared direction") + " per point"
+                            : many(static_cast<std::size_t>(scene.replicates), "replicate"));
     if (report.is_sobol) text += fmt::format(", Sobol' sequences of {:.0f} samples", report.at);
     if (scene.seconds > 0) text += fmt::format(", {}", short_duration(scene.seconds));
     text += setup_text(scene.setup);

@@ -44,7 +44,9 @@ bool has_intervals(const SceneReport& scene)
 void say_extent(Sentences& sentences, const SceneReport& scene)
 {
     if (scene.partial) sentences.say("Stopped early: these are the results so far");
-    else if (scene.replicates > 1 && scene.replicates < most_replicates && has_intervals(scene))
+    // Turns of shared directions are compared region by region, so that a few tell enough.
+    else if (scene.directions == 0 && scene.replicates > 1 && scene.replicates < most_replicates &&
+             has_intervals(scene))
         sentences.say("Intervals are rough: there was room for " +
                       std::to_string(scene.replicates) + " replicates, not " +
                       std::to_string(most_replicates) + " (--spp)");

@@ -57,6 +57,9 @@ TEST(Sentences, ClaimNoMoreThanWasLookedAt)
     EXPECT_EQ(all_of(scene).find("audited"), std::string::npos);
     scene.replicates = 8;
     expect_said(all_of(scene), "Intervals are rough: there was room for 8 replicates, not 16");
+    scene.directions = 160;
+    EXPECT_EQ(all_of(scene).find("Intervals are rough"), std::string::npos);
+    scene.directions = 0;
     scene.partial = true;
     EXPECT_EQ(all_of(scene).find("Intervals are rough"), std::string::npos);
     scene.lacks_audit = true;

@@ -4,7 +4,7 @@ function draw_run() {
   const s = scene_now(), lines = [
     ["Command", report.command, "code"], ["Scene", s.file], ["Program", `mis ${report.version}, ${report.instruction_set} kernels`], ["Machine", `${report.machine}; ${report.threads} ${report.threads === 1 ? "thread" : "threads"}`], ["Seed", String(report.seed)],
     ["Shading points", number(s.shading_points) + (s.resolution ? ` of ${s.resolution[0]} × ${s.resolution[1]} pixels (${number(s.background_pixels)} background)` : " (probes)")],
-    ["Samples", samples_words(s)], ["Replicates", `${s.replicates} independent repetitions, which the intervals come from`],
+    ["Samples", samples_words(s)], ["Replicates", `${s.replicates} independent repetitions${s.directions > 0 ? ", turns of shared directions" : ""}, which the intervals come from`],
     ["Took", duration(s.seconds) + (s.settled ? ", settled: it is decided which to use, and every variance is known to ± 25\u00a0%" : s.decided ? ", decided which to use; some variances are not known to ± 25\u00a0%" : ", not decided which to use") + (s.partial ? ", stopped early" : "")],
   ];
   $("run").replaceChildren(...lines.flatMap(([what, value, className]) => [make("dt", {}, what), make("dd", { className: className ?? "" }, className === "code" ? command_text(value) : make("bdi", {}, value))]));
@@ -15,7 +15,7 @@ function samples_words(s) {
   const counts = s.strategies.filter((t) => t.samples > 0 && s.shading_points > 0).map((t) => t.samples / s.shading_points);
   if (counts.length === 0) return "none";
   const low = number(Math.min(...counts)), high = number(Math.max(...counts));
-  return (low === high ? low : `${low} to ${high}`) + " per shading point and strategy";
+  return (low === high ? low : `${low} to ${high}`) + " per shading point and strategy" + (s.directions > 0 ? `; variances come from ${number(s.directions)} directions per point that all strategies share` : "");
 }
 
 function draw_effects() {
