@@ -39,8 +39,8 @@ void StudyRounds::take_round(const Allocation& allocation, int first, int end, i
 {
     std::vector<std::size_t> order = round_order(runs_.size(), ground_.seed, count_);
     // What is dear must not keep others from their turn.
-    std::ranges::stable_partition(order,
-                                  [&](std::size_t s) { return !options.apart_of(s).is_dear(); });
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t s) { return !options.apart_of(s).is_dear(); });
     const std::optional<std::uint32_t> number =
         is_round_timed(count_) ? std::optional(count_) : std::nullopt;
     ++count_;
