@@ -1,11 +1,8 @@
 #include "mis/study/study.h"
 
 #include "mis/engine/exact.h"
-#include "mis/math/limits.h"
-#include "mis/stats/exactness.h"
 #include "mis/stats/rank.h"
-#include "mis/stats/resolved.h"
-#include "mis/study/mean_checks.h"
+#include "mis/study/measured.h"
 #include "mis/study/reference.h"
 #include "mis/study/savings.h"
 #include "mis/study/scene_facts.h"
@@ -29,10 +26,6 @@ constexpr std::size_t fewest_timed_rounds = 4;
 /// seconds.
 constexpr double longest_turns = 2;
 
-/// A strategy's variance is from shared directions unless a first look, of so many turns, says that
-/// they would not resolve it by the end.
-constexpr std::size_t turns_of_look = 3;
-
 /// One study under way.
 class Scheduler {
 public:
@@ -52,13 +45,13 @@ public:
         start_report();
         set_up_ =
             set_up(ground_, strategies_, time_, {numbers(), !options_.own_samples, threads()});
-        is_own_.assign(strategies_.size(), set_up_.shared == nullptr);
+        measured_.emplace(ground_, strategies_, set_up_, has_closed_form_);
         rounds_.emplace(ground_until_end_, set_up_.runs,
                         [this](std::size_t s, double done) { end_turn(s, done); });
         reference_.emplace(
             set_up_.runs, *points_,
-            [this](std::size_t s, const RelativeScale& scale) { return measured(s, scale); },
-            [this](std::size_t s) { return shared_variance(s); });
+            [this](std::size_t s, const RelativeScale& scale) { return measured_->of(s, scale); },
+            [this](std::size_t s) { return measured_->shared_variance(s); });
         if (lit() > 0) {
             if (options_.spp) run_spp();
             else if (set_up_.shared) run_time_sharing();
@@ -66,9 +59,7 @@ public:
         }
         finish();
         std::vector<std::optional<std::size_t>> places(strategies_.size());
-        if (is_shared())
-            for (std::size_t s = 0; s < strategies_.size(); ++s)
-                if (!is_own_[s]) places[s] = place_of(s);
+        for (std::size_t s = 0; s < strategies_.size(); ++s) places[s] = measured_->shared_place(s);
         return {std::move(report_),    std::move(points_),        std::move(set_up_.runs),
                 reference_->weights(), std::move(set_up_.shared), std::move(places)};
     }
@@ -160,7 +151,7 @@ private:
         while (shared.directions_after_next() <= wanted) {
             if (!take_turn()) return false;
             const auto so_far = static_cast<double>(shared.directions());
-            choose_sources(static_cast<double>(*options_.spp) / so_far);
+            measured_->choose_sources(static_cast<double>(*options_.spp) / so_far);
         }
         return true;
     }
@@ -185,27 +176,6 @@ private:
             shared.weigh_again();
         }
         return true;
-    }
-
-    /// By the errors of a first look, which are no part of any figure: whose variance its own
-    /// samples tell. times: how many times as many directions there will be.
-    void choose_sources(double times)
-    {
-        if (has_chosen_ || set_up_.shared->count() < turns_of_look) return;
-        has_chosen_ = true;
-        for (std::size_t s = 0; s < strategies_.size(); ++s) {
-            const std::optional<std::size_t> place = place_of(s);
-            is_own_[s] = !place ||
-                         !(set_up_.shared->relative_error(*place, times) <= largest_relative_error);
-            if (is_own_[s]) set_up_.how.apart[s] = {};
-        }
-    }
-
-    std::optional<std::size_t> place_of(std::size_t s) const
-    {
-        const auto found = std::ranges::find(set_up_.sharing, strategies_[s]);
-        if (found == set_up_.sharing.end()) return std::nullopt;
-        return static_cast<std::size_t>(found - set_up_.sharing.begin());
     }
 
     void run_time()
@@ -251,7 +221,8 @@ private:
         for (std::size_t s = 0; s < strategies_.size(); ++s)
             if (set_up_.runs[s] && !set_up_.how.rests[s])
                 cpu += set_up_.costs[s].seconds / set_up_.first_samples *
-                       (is_own_[s] ? 2 * most_replicates : set_up_.how.apart[s].observations);
+                       (measured_->is_own(s) ? 2 * most_replicates
+                                             : set_up_.how.apart[s].observations);
         return rounds_->count() == 0 ? 0 : cpu / threads();
     }
 
@@ -265,8 +236,10 @@ private:
             if (is_stopped() || set_up_.shared->last_seconds() > time_.left()) return any;
             if (!take_turn()) return any;
             any = true;
-            choose_sources(1 +
-                           0.5 * time_.left() / (turns_of_look * set_up_.shared->last_seconds()));
+            const SharedTurns& shared = *set_up_.shared;
+            const double of_turns_so_far =
+                shared.last_seconds() * static_cast<double>(shared.count());
+            measured_->choose_sources(1 + 0.5 * time_.left() / of_turns_so_far);
         } while (seconds_since(before) < seconds);
         return true;
     }
@@ -333,8 +306,9 @@ private:
     /// Where a variance is all that is asked for, own samples of those rest.
     std::vector<bool> is_shared_everywhere() const
     {
-        std::vector<bool> shared = is_own_;
-        shared.flip();
+        std::vector<bool> shared;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            shared.push_back(!measured_->is_own(s));
         return shared;
     }
 
@@ -348,7 +322,7 @@ private:
                                 .share = share,
                                 .earlier = earlier});
         };
-        if (is_shared()) look_at_shared();
+        measured_->look();
         Ranking ranking = ranked(reference_->of_resolved());
         const auto is_ranked = [&](std::size_t s) {
             return ranking.strategies[s].status == Status::ranked;
@@ -356,73 +330,10 @@ private:
         if (reference_->trust_fewer(is_ranked))  // some were biased
             ranking = ranked(reference_->of_trusted());
         put_ranking(std::move(ranking), time_.elapsed(), report_);
-        report_.directions = is_shared() ? set_up_.shared->directions() : 0;
+        report_.directions = measured_->is_shared() ? set_up_.shared->directions() : 0;
         report_.epsilon = reference_->epsilon();
-        report_.lacks_audit = !set_up_.audit && !is_dark();
+        report_.lacks_audit = !set_up_.audit && !measured_->is_dark();
         report_.had_no_time_for_audit = report_.lacks_audit && !numbers().is_sobol();
-    }
-
-    /// All that shared directions say, which no reference changes.
-    void look_at_shared()
-    {
-        const SharedTurns& shared = *set_up_.shared;
-        set_up_.audit.emplace(shared, lit(), set_up_.how.weights, set_up_.sharing);
-        of_shared_.resize(strategies_.size());
-        ground_.executor.for_each(strategies_.size(), [&](std::size_t s) {
-            const std::optional<std::size_t> place = place_of(s);
-            if (!set_up_.runs[s] || !place) return;
-            of_shared_[s] = {shared.figures(*place),
-                             mean_checks(*set_up_.runs[s], *points_, shared, *place)};
-        });
-    }
-
-    /// Are shared directions far enough to say something?
-    bool is_shared() const { return set_up_.shared && set_up_.shared->is_known(); }
-
-    std::optional<double> shared_variance(std::size_t s) const
-    {
-        const std::optional<std::size_t> place = place_of(s);
-        if (!is_shared() || !place || is_own_[s]) return std::nullopt;
-        const ValueAndError variance = set_up_.shared->mean(*place);
-        return std::max(variance.value, 0.0) + 2 * variance.se;  // what it may well be
-    }
-
-    StrategyMeasurements measured(std::size_t s, const RelativeScale& scale) const
-    {
-        if (!set_up_.runs[s] || (lit() > 0 && set_up_.runs[s]->samples() == 0)) return not_run(s);
-        StrategyMeasurements m = set_up_.runs[s]->measurements(scale);
-        if (is_shared() && place_of(s)) {
-            if (!is_own_[s]) m.shared = of_shared_[s].figures;
-            m.mean_checks = of_shared_[s].means;
-        }
-        if (set_up_.audit) set_up_.audit->add_to(m, set_up_.runs[s]->results());
-        m.is_proved_exact =
-            is_dark() || (has_closed_form_ && gives_closed_form(scene_.scene(), strategies_[s]));
-        m.all_samples_equal_reference =
-            exactness_of(m) != Exactness::none && !(m.shared && is_refuted(m));
-        return m;
-    }
-
-    StrategyMeasurements not_run(std::size_t s) const
-    {
-        const CostEstimate& cost = set_up_.costs[s];
-        StrategyMeasurements m;
-        m.strategy = strategies_[s];
-        m.was_run = false;
-        m.estimated_seconds = cost.is_known ? cost.seconds : nan;
-        m.not_run_reason = set_up_.runs[s] && !is_stopped()
-                               ? Reason(reason::NotReady{})
-                               : why_not_run(cost, set_up_.first_samples, is_stopped());
-        return m;
-    }
-
-    /// No light, or no point that can be lit: every sample is 0, as the mean is.
-    bool is_dark() const
-    {
-        const Lights& lights = scene_.scene().lights;
-        return lit() == 0 || std::all_of(lights.begin(), lights.end(), [](const Light& light) {
-                   return light.radiance_radius == Vec3<float>(0.0F);
-               });
     }
 
     void finish()
@@ -441,15 +352,9 @@ private:
     SceneReport report_;
     SetUp set_up_;
     SamplePlan plan_;
-    struct OfShared {
-        SharedFigures figures;
-        std::vector<MeanCheck> means;
-    };
-    std::vector<OfShared> of_shared_;  ///< [strategy], as of the last look
-    std::vector<bool> is_own_;         ///< [strategy]: its variance is from its own samples
-    bool has_chosen_ = false;          ///< so
-    std::uint64_t weighed_at_ = 0;     ///< directions, when the weights were last found
-    bool has_closed_form_ = false;     ///< at every point of the figures: proved
+    std::uint64_t weighed_at_ = 0;  ///< directions, when the weights were last found
+    bool has_closed_form_ = false;  ///< at every point of the figures: proved
+    std::optional<MeasuredStrategies> measured_;
     std::optional<StudyRounds> rounds_;
     std::optional<StudyReference> reference_;
     ErrorSpending spending_;
