@@ -222,12 +222,13 @@ TEST(Study, LeavesOutWhatIsPastTheBudget)
     Scene scene = probe_under(thirty_lights_one_dark(), grey_floor());
     while (scene.lights.size() < 100'000)
         scene.lights.push_back(scene.lights[scene.lights.size() % 30]);
-    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {32, 32}};
+    scene.camera = Camera{.position = {0, 2, 6}, .target = {0, 0, 0}, .resolution = {64, 64}};
     scene.surfaces.push_back({Quad{{-5, 0, -5}, {Vec3<double>{0, 0, 10}, {10, 0, 0}}}, 0});
     const Study study =
-        study_of(scene, strategies_named({"all/light", "power/light"}), {.seconds = 0.5});
+        study_of(scene, strategies_named({"all/light", "power/light"}), {.seconds = 3});
+    // One sample of every point draws some 3e8 times: no machine does that in the time.
     EXPECT_EQ(study.report.strategies[0].status, Status::not_run);
-    EXPECT_GT(study.report.strategies[0].estimated_seconds, 0.5);
+    EXPECT_GT(study.report.strategies[0].estimated_seconds, 1.8);
     EXPECT_NE(study.report.strategies[1].status, Status::not_run);
 }
 
