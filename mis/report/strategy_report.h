@@ -91,6 +91,9 @@ struct StrategyReport {
     Interval seconds_to_1_percent;  ///< wall time on the stated threads
     /// CPU time that it would take; NaN unless not_run.
     double estimated_seconds = std::numeric_limits<double>::quiet_NaN();
+    /// The least bias of its mean, relative to that, that would all but surely have been found; NaN
+    /// where no shared directions tell the right mean.
+    double least_detectable_bias = std::numeric_limits<double>::quiet_NaN();
     double bias_p_value = 1;      ///< against the reference pooled from the others, corrected
     double rare_share = 0;        ///< share of the variance at points where rare samples carry it
                                   ///< (stats/pool.h)
@@ -125,6 +128,7 @@ template <class Visitor, Either<StrategyReport> S> void describe(Visitor& v, S& 
     v.figure(Field("mean", unit::luminance), s.mean);
     v.size(Field("mean_se", unit::luminance), s.mean_se);
     v.size(Field("bias_p_value"), s.bias_p_value);
+    v.size(Field("least_detectable_bias").later(), s.least_detectable_bias);
     v.one_of(Field("variance_from").later(), s.variance_from, names_of(s.variance_from));
     v.interval(Field("variance", unit::luminance2), s.variance);
     v.interval(Field("relative_variance"), s.relative_variance);

@@ -53,9 +53,13 @@ void set_states(std::vector<StrategyReport>& reports, const SceneMeasurements& s
     const std::vector<BiasFinding> findings = are_beside_shared
                                                   ? find_bias_beside_shared(resolved, bias_error)
                                                   : find_bias(resolved, bias_error);
+    double tests = 0;  // that share the error
+    for (const StrategyMeasurements* s : resolved)
+        tests += static_cast<double>(s->mean_checks.size());
     for (std::size_t k = 0; k < resolved.size(); ++k) {
         StrategyReport& report = reports[index[k]];
         report.bias_p_value = findings[k].p_value;
+        report.least_detectable_bias = least_detectable_bias(*resolved[k], bias_error / tests);
         if (const double share = never_drawn(*resolved[k]); share > rounding_of_means) {
             exclude(report, Status::biased, reason::NeverDraws{share});
             report.exact = false;

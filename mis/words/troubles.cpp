@@ -7,6 +7,7 @@
 #include "mis/words/same.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mis {
 namespace {
@@ -52,6 +53,22 @@ void say_extent(Sentences& sentences, const SceneReport& scene)
                       std::to_string(most_replicates) + " (--spp)");
 }
 
+/// In how many ranked strategies a bias of this share would not have been missed.
+void say_least_bias(Sentences& sentences, const SceneReport& scene)
+{
+    constexpr double share = 0.05;
+    std::size_t ranked = 0, sure = 0;
+    for (const StrategyReport& s : scene.strategies) {
+        if (s.status != Status::ranked || std::isnan(s.least_detectable_bias)) continue;
+        ++ranked;
+        sure += s.least_detectable_bias <= share ? 1 : 0;
+    }
+    if (ranked > 0)
+        sentences.say("A bias of " + percent(share) +
+                      " of the image's mean would have been found in " + std::to_string(sure) +
+                      " of " + std::to_string(ranked) + " ranked strategies");
+}
+
 void say_kind(Sentences& sentences, const SceneView& view, const auto& is_of_it,
               const KindWords& words)
 {
@@ -83,6 +100,7 @@ void say_pairs(Sentences& sentences, const SceneView& view, const SameStrategies
 void say_troubles(Sentences& sentences, const SceneView& view)
 {
     for (int i = 0; i < view.count(); ++i) say_troubles_of(sentences, view, i);
+    say_least_bias(sentences, view.scene());
     say_extent(sentences, view.scene());
 }
 

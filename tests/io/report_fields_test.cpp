@@ -209,11 +209,11 @@ TEST(ReportFields, AreAllMembersOfAStrategyReport)
     const auto& [strategy, status, reason, exact, rank, rank_low, rank_high, by, by_low, by_high,
                  tied_with, may_be_best, behind, samples, mean, mean_se, from, variance,
                  relative_variance, timed_rounds, per_point, per_sample, stages, rays, efficiency,
-                 to_1_percent, estimated, p_value, rare_share, factor, growth, effective, invalid,
-                 first_invalid, probes] = s;
+                 to_1_percent, estimated, least_bias, p_value, rare_share, factor, growth,
+                 effective, invalid, first_invalid, probes] = s;
     EXPECT_EQ(&strategy, &s.strategy);
     EXPECT_EQ(&probes, &s.probes);
-    constexpr std::size_t members = 35, parts_of_strategy = 6;
+    constexpr std::size_t members = 36, parts_of_strategy = 6;
     OrderedJson definitions;
     SchemaWriter writer(definitions);
     describe(writer, s);

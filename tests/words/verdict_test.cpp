@@ -60,6 +60,9 @@ TEST(Sentences, ClaimNoMoreThanWasLookedAt)
     scene.directions = 160;
     EXPECT_EQ(all_of(scene).find("Intervals are rough"), std::string::npos);
     scene.directions = 0;
+    scene.strategies[0].least_detectable_bias = 0.04;
+    scene.strategies[1].least_detectable_bias = 0.06;
+    expect_said(all_of(scene), "A bias of 5 % of the image's mean would have been found in 1 of 2");
     scene.partial = true;
     EXPECT_EQ(all_of(scene).find("Intervals are rough"), std::string::npos);
     scene.lacks_audit = true;
