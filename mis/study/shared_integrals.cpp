@@ -20,12 +20,13 @@ void SharedIntegrals::take(const DirectionSet& set, std::span<SharedSums> sums,
         find_densities(set, d);
         for (std::size_t s = 0; s < plan_->entries.size(); ++s) add(s, set, d);
     }
+    const double luminance = mean();
     for (std::size_t s = 0; s < plan_->entries.size(); ++s) {
         if (counts) {
             const double variance = variance_of(s);
             sums[s].variance.add(variance);
             sums[s].last += variance;
-            sums[s].with_luminance += variance * mean();
+            sums[s].with_luminance += variance * luminance;
         }
         const std::size_t every = plan_->entries[s].every;
         const bool is_every = every != SharedPlan::none;
