@@ -58,7 +58,7 @@ std::vector<BiasFinding> find_bias_beside_shared(
     std::span<const StrategyMeasurements* const> strategies, double error);
 
 /// The least bias of the image's mean, relative to it, that such a test would all but surely find
-/// at that error; NaN where nothing is known.
-double least_detectable_bias(const StrategyMeasurements& strategy, double error);
+/// as one of `tests` tests that share that error; NaN where nothing is known.
+double least_detectable_bias(const StrategyMeasurements& strategy, double error, double tests);
 
 }  // namespace mis

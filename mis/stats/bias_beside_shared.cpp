@@ -76,12 +76,13 @@ std::vector<BiasFinding> find_bias_beside_shared(
     return findings;
 }
 
-double least_detectable_bias(const StrategyMeasurements& s, double error)
+double least_detectable_bias(const StrategyMeasurements& s, double error, double tests)
 {
     if (s.mean_checks.empty() || !(s.mean_checks.front().shared > 0))
         return std::numeric_limits<double>::quiet_NaN();
     const LogEstimate difference = difference_of(s.mean_checks.front());
-    return (t_quantile(0.5 * error, difference.dof) + t_quantile(interval_tail, difference.dof)) *
+    return (t_quantile(0.5 * error / tests, difference.dof) +
+            t_quantile(interval_tail, difference.dof)) *
            difference.se / s.mean_checks.front().shared;
 }
 

@@ -59,7 +59,7 @@ void set_states(std::vector<StrategyReport>& reports, const SceneMeasurements& s
     for (std::size_t k = 0; k < resolved.size(); ++k) {
         StrategyReport& report = reports[index[k]];
         report.bias_p_value = findings[k].p_value;
-        report.least_detectable_bias = least_detectable_bias(*resolved[k], bias_error / tests);
+        report.least_detectable_bias = least_detectable_bias(*resolved[k], bias_error, tests);
         if (const double share = never_drawn(*resolved[k]); share > rounding_of_means) {
             exclude(report, Status::biased, reason::NeverDraws{share});
             report.exact = false;

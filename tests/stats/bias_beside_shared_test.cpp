@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace mis {
@@ -88,11 +89,16 @@ TEST(BiasBesideShared, HasALeastThatIsSeen)
     constexpr int runs = 200;
     for (int run = 0; run < runs; ++run) {
         const StrategyMeasurements s = checked(bits, 0);
-        const double least = least_detectable_bias(s, 1e-3 / (1 + double(regions_of_checks)));
+        const double least = least_detectable_bias(s, 1e-3, 1 + double(regions_of_checks));
         EXPECT_NEAR(least, 0.075, 0.02);
         seen += beside_shared(checked(bits, least)).biased;
     }
     EXPECT_GT(seen, 0.9 * runs);
+}
+
+TEST(BiasBesideShared, HasNoLeastWhereNothingIsChecked)
+{
+    EXPECT_TRUE(std::isnan(least_detectable_bias({}, 1e-3, 0)));
 }
 
 }  // namespace
