@@ -200,7 +200,7 @@ mis_status mis_lights_create(const char* strategy, const mis_light* lights, size
         if (const mis_status status = read_lights(lights, count, read, message, capacity);
             status != MIS_OK)
             return status;
-        const Strategy parsed = parse_strategy(strategy);
+        const Strategy parsed = parse_sample_strategy(strategy);
         std::unique_ptr<mis_lights> made = bound(parsed, std::move(read));
         if (!made) {
             say(std::string("\"") + strategy + "\" chooses no light: it is the host's own draw",

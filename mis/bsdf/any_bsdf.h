@@ -73,4 +73,15 @@ inline std::shared_ptr<const void> make_bsdf(const Material& material)
                          });
 }
 
+/// The lobe of a material alone, of which all draws are the lobe's: f is the whole f without its
+/// diffuse part. nullptr where there is no lobe.
+inline std::shared_ptr<const void> make_lobe(Material material)
+{
+    const std::shared_ptr<const void> whole = make_bsdf(material);
+    if (is_diffuse({whole.get(), bsdf_number(material.type)})) return nullptr;
+    material.diffuse = Vec3<double>(0);
+    material.specular_probability = 1;
+    return make_bsdf(material);
+}
+
 }  // namespace mis

@@ -25,12 +25,14 @@ struct LobeExtent {
 };
 
 /// How a surface scatters. Directions are unit vectors in the shading frame (z is the normal), away
-/// from the point, with wo.z > 0. evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a
+/// from the point, with wo.z > 0. f is a diffuse part, the same for all wi, and a lobe or none.
+/// evaluate: for wi.z > 0. sample: from `lobe` and u, in [0, 1); a
 /// wi with wi.z ≤ 0 is a lost draw, which contributes 0 and is not redrawn, so ∫pdf over the
 /// hemisphere + P(lost) = 1. draws(): false where all is black. has_lobe: false where no material
-/// has one, whatever it says. is_diffuse(): this one has none; a type that has a lobe and can lack
-/// it has evaluate_diffuse(wi), which then is evaluate(wo, wi) to the last bit. One that has a lobe
-/// has lobe_share(): how many of its draws are the lobe's, those with `lobe` below that.
+/// has one, whatever it says. is_diffuse(): this one has none. A type that has a lobe has
+/// evaluate_diffuse(wi), its diffuse part alone: where it lacks the lobe, that is evaluate(wo, wi)
+/// to the last bit. And lobe_share(): how many of its draws are the lobe's, those with `lobe` below
+/// that.
 // clang-format off
 template <class B, class T>
 concept Bsdf = std::constructible_from<B, const Material&> &&

@@ -35,6 +35,11 @@ public:
                 number<T>(1 - s_) * cosine_pdf(wi.z) + number<T>(s_) * specular_pdf};
     }
 
+    template <class T> MIS_INLINE BsdfValue<T> evaluate_diffuse(const Vec3<T>& wi) const
+    {
+        return {color<T>(diffuse_), cosine_pdf(wi.z)};
+    }
+
     template <class T>
     MIS_INLINE Vec3<T> sample(const Vec3<T>& wo, const T& lobe, const Vec2<T>& u) const
     {

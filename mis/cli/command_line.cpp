@@ -35,7 +35,8 @@ std::string strategy_help()
     return "\nA strategy is policy/heuristic[/technique][/one-sample][@LIGHT+BSDF], as in "
            "solid-angle/power or "
            "power/balance/union@4+1; or one that chooses no light: brdf, cosine, "
-           "hemisphere.\n\nPolicies:\n" +
+           "hemisphere; or strata@N: N light draws per point, spread over the lights by what "
+           "earlier ones have seen.\n\nPolicies:\n" +
            described(policy_names()) + "Heuristics:\n" + described(heuristic_names()) +
            "Techniques:\n" + described(technique_names());
 }
@@ -86,7 +87,8 @@ void add_run_options(CLI::App& command, RunOptions& options, bool draws_samples 
         command
             .add_option("--sampler", options.sampler,
                         "independent: random numbers; sobol: scrambled sequences, whose samples "
-                        "spread evenly")
+                        "spread evenly, as strata has them where this is not given")
+            ->each([&options](const std::string&) { options.names_sampler = true; })
             ->type_name("NAME")
             ->capture_default_str();
     command.add_flag("--quiet", options.quiet, "no progress and no remarks on standard error");

@@ -53,6 +53,7 @@ StudyOptions study_options(const CompareOptions& options, const Scene& scene, Pr
     study.seed = options.run.seed;
     study.at = options.at;
     study.own_samples = options.own_samples;
+    study.names_sampler = options.run.names_sampler;
     if (options.run.is_sobol())
         study.samples_per_scrambling = static_cast<std::uint64_t>(options.at);
     if (options.stop.spp) study.spp = static_cast<std::uint64_t>(*options.stop.spp);
@@ -180,9 +181,12 @@ int run_compare(const CompareOptions& options)
             "--fail-on-regression: found scenes; it takes two reports, as --json wrote them: mis "
             "compare OLD.json NEW.json");
     check_options(options);
-    const StrategyRequest request =
-        read_lists({options.policies, options.heuristics, options.techniques, options.models,
-                    options.strategies});
+    StrategyRequest request = read_lists({options.policies, options.heuristics, options.techniques,
+                                          options.models, options.strategies});
+    constexpr double most_draws = 65536;
+    request.strata = {
+        .draws = static_cast<int>(std::clamp(std::round(options.at), 1.0, most_draws)),
+        .spp = options.stop.spp};
     if (!options.out.empty()) check_report_folder(options.out, options.force);
     Report report{run_head(options.run)};
     report.at = options.at;

@@ -31,6 +31,7 @@ struct RunOptions {
     std::string resolution;        ///< "WxH", or empty for the scene's
     std::string effects = "auto";  ///< auto, all, or NAME=off
     std::string sampler = "independent";
+    bool names_sampler = false;  ///< else `strata` has its own
     std::string command_line;
 
     bool is_sobol() const { return sampler == "sobol"; }

@@ -4,6 +4,7 @@
 #include "mis/cli/progress.h"
 #include "mis/cli/ready.h"
 #include "mis/cli/remark.h"
+#include "mis/cli/strategy_list.h"
 #include "mis/engine/exact.h"
 #include "mis/engine/render.h"
 #include "mis/engine/stopwatch.h"
@@ -162,7 +163,8 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
             break;
         }
         Band& band = *next;
-        constexpr std::uint64_t step = 16;
+        const auto step = std::max<std::uint64_t>(
+            16, static_cast<std::uint64_t>(samples_together(strategy.strategy())));
         for (std::uint64_t s = 0; s < spp && !outcome.is_partial; s += step) {
             const int count = static_cast<int>(std::min(step, spp - s));
             outcome.invalid +=
@@ -207,6 +209,13 @@ std::string no_time_message(double seconds, const std::string& file)
         seconds, file);
 }
 
+/// The most samples that are whole observations.
+int in_whole_observations(double samples, const ReadyStrategy<float>& strategy)
+{
+    const int each = samples_together(strategy.strategy());
+    return static_cast<int>(samples) / each * each;
+}
+
 /// Until a time or an error is reached: all of the picture at once, in doubling rounds. To an error
 /// by Sobol' sequences, all rounds double, so that the samples are a power of two. start: of the
 /// time.
@@ -221,7 +230,8 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
     Band band = find_band(ready.lit, 0, outcome.image.height, ready.stoppable_executor());
     outcome.shading_points = band.results.size() + band.shading.dark.size();
     outcome.turned_normals = band.shading.counts.turned_normals;
-    int count = stop.seconds ? 1 : 4;
+    const int each = samples_together(strategy.strategy());
+    int count = (stop.seconds ? 1 : 4) * each;
     bool is_done = false;
     while (!is_done) {
         const auto round = Clock::now();
@@ -238,7 +248,8 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
         const double seconds_per_sample = seconds_since(round) / count;
         if (stop.seconds) {
             const double left = *stop.seconds - seconds_since(start);
-            count = static_cast<int>(std::clamp(left / seconds_per_sample, 0.0, 64.0));
+            count = in_whole_observations(std::clamp(left / seconds_per_sample, 0.0, 64.0 * each),
+                                          strategy);
             is_done = count == 0;
             progress.show("rendering", seconds_since(start) / *stop.seconds);
         } else {
@@ -251,9 +262,10 @@ Outcome render_until(const ReadyScene& ready, const ReadyStrategy<float>& strate
                 outcome.error->is_resolved()
                     ? double(outcome.samples) * (error * error / (wanted * wanted) - 1)
                     : double(outcome.samples);
-            count =
-                static_cast<int>(std::clamp(needed, 1.0, std::min(64.0, double(outcome.samples))));
-            if (is_sobol)
+            count = in_whole_observations(
+                std::clamp(needed, double(each), std::min(64.0 * each, double(outcome.samples))),
+                strategy);
+            if (is_sobol && each == 1)
                 count = static_cast<int>(std::min<std::uint64_t>(outcome.samples, 1 << 20));
             progress.show("rendering", error > 0 ? wanted * wanted / (error * error) : 0);
         }
@@ -291,8 +303,9 @@ Outcome render_by(const Strategy& strategy, const ReadyScene& ready, const Rende
 {
     const bool is_sobol = options.run.is_sobol();
     const Clock::time_point start = Clock::now();
-    const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(),
-                                        {options.run.seed, is_sobol ? one_scrambling : 0}, {},
+    NumberSource numbers(options.run.seed, is_sobol ? one_scrambling : 0);
+    numbers.is_asked_for = options.run.names_sampler;
+    const ReadyStrategy<float> prepared(ready.lit, strategy, kernels<float>(), numbers, {},
                                         interrupt_token());
     const StopOptions& stop = options.stop;
     if (stop.seconds || stop.error)
@@ -325,6 +338,23 @@ void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strate
                outcome.invalid == 1 ? "was" : "were");
 }
 
+/// `strata` without a number has all of --spp, or 64, draws together; with one, --spp is some times
+/// that.
+Strategy with_draws(Strategy strategy, const StopOptions& stop)
+{
+    if (strategy.model != Model::strata) return strategy;
+    constexpr int by_default = 64, most = 1 << 20;
+    const auto spp = static_cast<std::uint64_t>(stop.spp.value_or(by_default));
+    const auto each = static_cast<std::uint64_t>(strategy.counts[0]);
+    if (each == 0) return strata(static_cast<int>(std::min<std::uint64_t>(spp, most)));
+    if (stop.spp && spp % each != 0)
+        throw UsageError(
+            fmt::format("--spp: found {}; {} has {} samples together, so --spp is {} "
+                        "times some whole number\n    Or say \"strata\" alone.",
+                        spp, name_of(strategy), each, each));
+    return strategy;
+}
+
 }  // namespace
 
 int run_render(const RenderOptions& options)
@@ -342,8 +372,9 @@ int run_render(const RenderOptions& options)
     if (is_exact && options.run.effects == "all")
         throw UsageError("--strategy exact: it needs the proofs of --effects auto");
     const std::optional<Strategy> strategy =
-        is_exact ? std::nullopt : std::optional(parse_strategy(options.strategy));
+        is_exact ? std::nullopt : std::optional(with_draws(parse_strategy(options.strategy), stop));
     const ReadyScene ready(options.scene, options.run);
+    if (strategy) check_lights(*strategy, ready.scene.lights.size());
     if (!ready.scene.camera)
         throw UsageError(options.scene + ": found no camera; a picture needs one");
     Progress progress(!options.run.quiet);

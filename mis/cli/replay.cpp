@@ -120,7 +120,7 @@ Vec3<double> run_in(const ReplayOptions& options, const LitScene& lit, const Str
 int run_replay(const ReplayOptions& options)
 {
     check(options);
-    const Strategy strategy = parse_strategy(options.strategy);
+    const Strategy strategy = parse_sample_strategy(options.strategy);
     const ReadyScene ready(options.scene, options.run);
     const std::uint32_t id = point_id(options, ready.scene);
     const StudyPoints points = find_study_points(ready.lit, ready.stoppable_executor());

@@ -2,8 +2,11 @@
 
 #include "mis/cli/options.h"
 #include "mis/effects/effects.h"
+#include "mis/engine/strata_tile.h"
 #include "mis/scene/nearest_name.h"
 #include "mis/strategy/names.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -92,6 +95,44 @@ void add_product(StrategySelection& selection, const StrategyRequest& request,
         selection.left_out.push_back("not ranked by default here; add --policy " + others);
 }
 
+std::string too_many(const Strategy& strata, std::size_t lights)
+{
+    return fmt::format(
+        "{}: it keeps figures of each light at each point of a tile, and there are "
+        "{} lights; at most {} may be",
+        name_of(strata), lights, most_strata_lights);
+}
+
+/// What keeps a command from `strata` on a scene; empty: nothing.
+std::string obstacle(const Strategy& strata, const std::optional<StrataRequest>& request,
+                     const SceneTraits& scene)
+{
+    const int each = samples_together(strata);
+    if (!request)
+        return fmt::format(
+            "{}: its variance depends on how many draws it has, which this command "
+            "has no figures for; `mis compare` has",
+            name_of(strata));
+    if (scene.lights > most_strata_lights) return too_many(strata, scene.lights);
+    if (request->spp && (*request->spp < 4 * std::int64_t{each} || *request->spp % each != 0))
+        return fmt::format(
+            "{}: its {} samples come together, so --spp is a multiple of {}, and at "
+            "least {}; found {}",
+            name_of(strata), each, each, 4 * std::int64_t{each}, *request->spp);
+    return "";
+}
+
+/// Adds `strata`, with its number of draws.
+void add_strata(StrategySelection& selection, Strategy strategy, const StrategyRequest& request,
+                const SceneTraits& scene, bool is_named)
+{
+    if (strategy.counts[0] == 0 && request.strata) strategy = strata(request.strata->draws);
+    const std::string reason = obstacle(strategy, request.strata, scene);
+    if (reason.empty()) add(selection, strategy);
+    else if (is_named) throw UsageError("strategy " + reason);
+    else selection.left_out.push_back(reason);
+}
+
 }  // namespace
 
 std::vector<std::string> names_listed(const std::string& option,
@@ -127,13 +168,23 @@ StrategyRequest read_lists(const StrategyLists& lists)
     return request;
 }
 
+void check_lights(const Strategy& strategy, std::size_t lights)
+{
+    if (strategy.model == Model::strata && lights > most_strata_lights)
+        throw UsageError("strategy " + too_many(strategy, lights));
+}
+
 SceneTraits traits_of(const Scene& scene) { return {scene.lights.size(), has_lobes(scene)}; }
 
 StrategySelection select_strategies(const StrategyRequest& request, const SceneTraits& scene)
 {
     StrategySelection selection;
     if (request.has_product) add_product(selection, request, scene);
-    for (const Strategy& strategy : request.named) add(selection, strategy);
+    if (request.has_product && !request.names_any_list && request.strata)
+        add_strata(selection, strata(0), request, scene, false);
+    for (const Strategy& strategy : request.named)
+        if (strategy.model == Model::strata) add_strata(selection, strategy, request, scene, true);
+        else add(selection, strategy);
     if (selection.strategies.empty())
         throw UsageError("no strategy is left:\n    " + selection.left_out.front());
     return selection;

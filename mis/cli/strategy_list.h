@@ -19,12 +19,19 @@ struct StrategyLists {
     bool names_any_list() const { return policies || heuristics || techniques || models; }
 };
 
+/// What a command makes of `strata`.
+struct StrataRequest {
+    int draws = 64;                   ///< of a point, where its name has no number
+    std::optional<std::int64_t> spp;  ///< samples of a point, where they are counted
+};
+
 /// The same, read: names that are known, and strategies that have a meaning.
 struct StrategyRequest {
     std::optional<std::vector<std::string>> policies, heuristics, techniques;
     std::vector<std::string> models;
     std::vector<Strategy> named;  ///< by --strategy
     bool has_product = true, names_any_list = false;
+    std::optional<StrataRequest> strata = {};  ///< none: the command has no figures of it
 };
 
 /// Throws StrategyError and UsageError for unknown names.
@@ -49,6 +56,9 @@ struct StrategySelection {
     std::vector<Strategy> strategies;
     std::vector<std::string> left_out;  ///< the reason for each, by name
 };
+
+/// Throws UsageError where a strategy cannot do with so many lights.
+void check_lights(const Strategy& strategy, std::size_t lights);
 
 /// Every combination of the lists that has a meaning, and the strategies named. In place of a list
 /// that was not given stand the names that are ranked by default on such a scene

@@ -19,6 +19,7 @@ inline constexpr std::size_t most_screened_lights = 32;
 /// runs.
 template <class T> struct TileJob {
     std::span<const ShadingPoint> points;  ///< of the tile
+    std::uint32_t picture_width = 0;       ///< by which ids are pixels; 0 without a camera
     const Lights* lights = nullptr;
     const LightOrder* order = nullptr;  ///< of tables and columns; nullptr: the scene's
     const LightHierarchy* hierarchy = nullptr;
@@ -29,9 +30,10 @@ template <class T> struct TileJob {
     LightColumns<T> columns;       ///< for policies that look at all lights, and for screening
     const void* policy = nullptr;  ///< a type of the registry, as is bsdf
     const void* bsdf = nullptr;
-    int bsdf_type = -1;         ///< bsdf_number() of its name
-    double radiance_scale = 1;  ///< of radiance and contributions in the batch: radiance_scale.h
-    double radiance_unit = 1;   ///< what undoes it
+    const void* lobe = nullptr;  ///< of the BSDF alone, of its type; nullptr where it has none
+    int bsdf_type = -1;          ///< bsdf_number() of its name
+    double radiance_scale = 1;   ///< of radiance and contributions in the batch: radiance_scale.h
+    double radiance_unit = 1;    ///< what undoes it
     NumberSource numbers;
     T light_count = 1,
       bsdf_count = 1;  ///< n_i of the multi-sample model; c_i of the one-sample model

@@ -8,6 +8,7 @@
 #include "mis/engine/stages_light.h"
 #include "mis/engine/stages_numbers.h"
 #include "mis/engine/stages_screen.h"
+#include "mis/engine/stages_strata.h"
 #include "mis/engine/stages_sums.h"
 #include "mis/heuristic/registry.h"
 #include "mis/policy/registry.h"
@@ -49,10 +50,7 @@ using TableOf = decltype(std::declval<const Policy&>().template prepare<V>(
 template <class T>
 ChoicePoint<T> choice_point(const TileJob<T>& job, const Batch<T>& batch, std::size_t p)
 {
-    const ShadingPoint& point = job.points[batch.tile_point[p]];
-    const Vec3<T> n = vec_cast<T>(point.n);
-    return {vec_cast<T>(point.x - job.origin), n, frame_around(n).to_local(vec_cast<T>(point.wo)),
-            AnyBsdf{job.bsdf, job.bsdf_type}, job.origin};
+    return choice_point(job, job.points[batch.tile_point[p]]);
 }
 
 /// Leaves a policy's table for each point of the batch from `first` on.
@@ -96,6 +94,8 @@ template <class T> void fill_kernels(Kernels<T>& kernels)
     kernels.weigh_alone = weigh_alone<V, T>;
     kernels.sums = {SumStages<T>{add_contributions<1, T>, find_luminances<1, T>, sum_run<1, T>},
                     SumStages<T>{add_contributions<3, T>, find_luminances<3, T>, sum_run<3, T>}};
+    kernels.strata = {find_shares<V, T>, part_lights<V, T>, learn_tile<V, T>,
+                      learn_block<V, T>, strata_numbers<T>, price_light<ExpectedDraws<T>, T>};
     for_each_type(Policies{}, [&]<class P>() {
         using Table = TableOf<P, V, T>;
         kernels.policies.push_back({P::name, P::draws_every_light, P::reads_all_lights,
@@ -118,10 +118,13 @@ template <class T> void fill_kernels(Kernels<T>& kernels)
     });
     for_each_type(Bsdfs{}, [&]<class B>() {
         using F = FormulaOf<B>;
+        Stage<T> parts = nullptr;
+        if constexpr (B::has_lobe) parts = weigh_parts<V, F, BalanceHeuristic, T>;
         kernels.bsdfs.push_back(
             {B::name,
              {{{evaluate_bsdf<V, F, false, false, T>, evaluate_bsdf<V, F, false, true, T>},
-               {evaluate_bsdf<V, F, true, false, T>, evaluate_bsdf<V, F, true, true, T>}}}});
+               {evaluate_bsdf<V, F, true, false, T>, evaluate_bsdf<V, F, true, true, T>}}},
+             parts});
     });
     for_each_type(Heuristics{}, [&]<class H>() {
         kernels.heuristics.push_back({H::name, weigh_light<V, H, T>, weigh_bsdf<V, H, T>});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mis/engine/job.h"
+#include "mis/engine/strata_parts.h"
 #include "mis/math/moments.h"
 #include "mis/scene/material.h"
 #include "mis/strategy/strategy.h"
@@ -36,6 +37,9 @@ template <class T> struct BsdfStages {
     std::string_view name;
     /// wi → contribution (f cos θ), bsdf_pdf: [has a lobe][some wi may be below the horizon]
     std::array<std::array<Stage<T>, 2>, 2> evaluate;
+    /// wi, light_pdf → contribution of a light draw beside draws of the lobe, by the balance
+    /// heuristic; null where the type has no lobe.
+    Stage<T> weigh_parts;
 };
 
 /// A draw over the hemisphere by one BSDF under one direction technique.
@@ -67,6 +71,17 @@ template <class T> struct SumStages {
                        double share, const Vec3<double>& before) = nullptr;
 };
 
+/// What `strata` does over all lights of a point, and with its draws' numbers.
+template <class T> struct StrataStages {
+    /// [place] of what a point would reflect unshaded; Σ = 1, or all are 0.
+    void (*find_shares)(const TileJob<T>&, const ShadingPoint&, std::span<T> shares);
+    void (*part_lights)(const StrataKnowledge<T>&, int draws, StrataParts<T>&);
+    void (*learn_tile)(const SeenCounts<T>&, std::span<T> means);
+    void (*learn_block)(const SeenCounts<T>&, std::span<const T> tile, std::span<T> means);
+    void (*numbers)(StrataColumns&, Batch<T>&);  ///< of scrambled sequences
+    Stage<T> probability;  ///< light → its expected draws, which ExpectedDraws in the table says
+};
+
 /// All stages for one number type and instruction set.
 template <class T> struct Kernels {
     std::string_view instruction_set;
@@ -78,6 +93,7 @@ template <class T> struct Kernels {
         screen_hiding;  ///< wi, light, distance → candidate: which other could stand before it?
     Stage<T> weigh_alone;              ///< contribution = f cos θ · L/pdf
     std::array<SumStages<T>, 2> sums;  ///< of grey, where the first channel is all; of colours
+    StrataStages<T> strata;
     std::vector<PolicyStages<T>> policies;
     std::vector<LightTechniqueStages<T>> light_techniques;
     std::vector<BsdfStages<T>> bsdfs;

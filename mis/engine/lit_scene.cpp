@@ -17,7 +17,10 @@ LitScene::LitScene(const Scene& scene, const SurfaceTracer* surfaces, const Effe
       has_grey_lights_(are_grey(scene.lights)),
       radiance_scale_(mis::radiance_scale(scene.lights, frame_origin_of(scene)))
 {
-    for (const Material& material : scene.materials) bsdfs_.push_back(make_bsdf(material));
+    for (const Material& material : scene.materials) {
+        bsdfs_.push_back(make_bsdf(material));
+        lobes_.push_back(make_lobe(material));
+    }
 }
 
 Effects LitScene::effects(int material) const
@@ -75,7 +78,9 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
     : scene_(&scene), strategy_(strategy)
 {
     const Lights& lights = scene.scene().lights;
-    if (strategy.chooses_light() && numbers.is_sobol()) {
+    if (strategy.model == Model::strata) {
+        order_ = scene.order(stop);
+    } else if (strategy.chooses_light() && numbers.is_sobol()) {
         order_ = scene.order(stop);
         policy_ = scene.policy_in_order(strategy.policy, stop);
     } else if (strategy.chooses_light()) {
@@ -86,20 +91,28 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
     for (std::size_t m = 0; m < materials.size(); ++m) {
         Effects whole = scene.effects(static_cast<int>(m));
         whole.on = whole.on | (also - effects_of_tiles);
+        Strategy of_material = strategy;
+        if (strategy.model == Model::strata && scene.lobe(static_cast<int>(m)) == nullptr)
+            of_material.counts[1] = 0;  // there, light draws alone have no noise but visibility
         for (std::size_t bits = 0; bits < pipelines_[m].size(); ++bits) {
             Effects effects = whole;
             effects.on = of_tile(whole.on, EffectSet::of_bits(bits));
-            pipelines_[m][bits] = compose(kernels, strategy, materials[m].type, effects, numbers);
+            pipelines_[m][bits] =
+                compose(kernels, of_material, materials[m].type, effects, numbers);
         }
     }
     common_.radiance_scale = scene.radiance_scale();
     common_.radiance_unit = 1 / scene.radiance_scale();
     common_.lights = &lights;
+    const std::optional<Camera>& camera = scene.scene().camera;
+    common_.picture_width = camera ? static_cast<std::uint32_t>(camera->resolution[0]) : 0;
     common_.order = order_.get();
     common_.hierarchy = &scene.lights();
     common_.surfaces = scene.surfaces();
     common_.policy = policy_.get();
     common_.numbers = numbers;
+    if (strategy.model == Model::strata && !numbers.is_asked_for)
+        common_.numbers.samples_per_scrambling = one_scrambling;
     const bool one_sample = strategy.model == Model::one_sample;
     common_.draws_every_light = strategy.chooses_light() && draws_every_light(strategy.policy);
     common_.draws_per_light = static_cast<std::uint32_t>(std::max(strategy.counts[0], 1));
@@ -123,6 +136,7 @@ TileJob<T> ReadyStrategy<T>::job(const Tile& tile, std::span<const ShadingPoint>
     job.blockers = tile.plan.blockers.get();
     const AnyBsdf bsdf = scene_->bsdf(tile.material);
     job.bsdf = bsdf.object, job.bsdf_type = bsdf.type;
+    job.lobe = scene_->lobe(tile.material);
     return job;
 }
 

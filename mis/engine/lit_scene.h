@@ -57,6 +57,12 @@ public:
         return {bsdfs_[i].get(), bsdf_number(scene_->materials[i].type)};
     }
 
+    /// The lobe of a material's BSDF alone, of the same type; nullptr where it has none.
+    const void* lobe(int material) const
+    {
+        return lobes_[static_cast<std::size_t>(material)].get();
+    }
+
     /// What kernels multiply radiance by, and results are divided by (engine/radiance_scale.h).
     double radiance_scale() const { return radiance_scale_; }
     /// A policy's tables, an object of its type (engine/choices.h), made when it
@@ -74,7 +80,7 @@ private:
     Effects effects_;
     LightHierarchy hierarchy_;
     TilePlanner planner_;
-    std::vector<std::shared_ptr<const void>> bsdfs_;
+    std::vector<std::shared_ptr<const void>> bsdfs_, lobes_;
     bool has_grey_lights_;
     double radiance_scale_;
     using Made = MadeOnce<std::shared_ptr<const void>>;

@@ -41,17 +41,24 @@ std::vector<NamedStage<T>> light_half(const Kernels<T>& kernels, const Strategy&
     const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
     const LightTechniqueStages<T>& technique =
         require_named(kernels.light_techniques, "technique", s.technique);
-    std::vector<NamedStage<T>> stages{{StageKind::rows, start_rows<T>}};
-    if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_light_rows<T>});
-    stages.push_back({StageKind::numbers, numbers});
-    stages.push_back(
-        {StageKind::choose, effects.on.has(Effect::choice) ? policy.choose : policy.choose_only});
+    std::vector<NamedStage<T>> stages;
+    if (s.model != Model::strata) {  // whose rows, numbers and choices are its rounds'
+        stages.push_back({StageKind::rows, start_rows<T>});
+        if (s.model == Model::one_sample) stages.push_back({StageKind::rows, keep_light_rows<T>});
+        stages.push_back({StageKind::numbers, numbers});
+        stages.push_back({StageKind::choose,
+                          effects.on.has(Effect::choice) ? policy.choose : policy.choose_only});
+    }
     stages.push_back({StageKind::draw, technique.draw});
     if (technique.sums_lights && effects.on.has(Effect::light_occlusion))
         stages.push_back({StageKind::meet, policy.sum_light_draw});
-    stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
-    stages.push_back({StageKind::weigh,
-                      require_named(kernels.heuristics, "heuristic", s.heuristic).weigh_light});
+    if (s.model == Model::strata && s.counts[1] > 0) {
+        stages.push_back({StageKind::bsdf, require_named(kernels.bsdfs, "BSDF", bsdf).weigh_parts});
+    } else {
+        stages.push_back({StageKind::bsdf, evaluation(kernels, bsdf, effects)});
+        stages.push_back({StageKind::weigh,
+                          require_named(kernels.heuristics, "heuristic", s.heuristic).weigh_light});
+    }
     // The cheaper question first: what one answer hides, the other is not asked about.
     const bool is_screened = effects.lights <= most_screened_lights;
     if (!is_screened) add_surfaces(stages, effects);
@@ -80,7 +87,8 @@ std::vector<NamedStage<T>> bsdf_half(const Kernels<T>& kernels, const Strategy& 
     if (effects.lights <= most_screened_lights)
         stages.push_back({StageKind::meet, kernels.screen_meeting});
     stages.push_back({StageKind::meet, meet_lights<T>});
-    stages.push_back({StageKind::choose, policy.probability});
+    stages.push_back({StageKind::choose,
+                      s.model == Model::strata ? kernels.strata.probability : policy.probability});
     stages.push_back({StageKind::draw, technique.pdf});
     if (technique.sums_lights && effects.on.has(Effect::light_occlusion))
         stages.push_back({StageKind::meet, policy.sum_bsdf_draw});
@@ -133,10 +141,15 @@ Pipeline<T> compose(const Kernels<T>& kernels, const Strategy& s, std::string_vi
         return pipeline;
     }
     const PolicyStages<T>& policy = require_named(kernels.policies, "policy", s.policy);
-    pipeline.prepare = policy.prepare;
-    pipeline.draws_every_light = policy.draws_every_light;
     pipeline.reads_all_lights = policy.reads_all_lights;
-    pipeline.table_bytes = policy.table_bytes(effects.lights);
+    if (s.model == Model::strata) {
+        pipeline.strata = &kernels.strata;
+        pipeline.independent_numbers = kernels.light_numbers;
+    } else {
+        pipeline.prepare = policy.prepare;
+        pipeline.draws_every_light = policy.draws_every_light;
+        pipeline.table_bytes = policy.table_bytes(effects.lights);
+    }
     pipeline.light = light_half(kernels, s, bsdf, effects, light_numbers);
     pipeline.light_draws = s.counts[0];
     pipeline.bsdf_draws = s.counts[1];

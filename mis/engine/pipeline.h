@@ -28,6 +28,9 @@ inline constexpr std::array<std::string_view, 11> stage_names{
     "prepare", "rows",  "numbers",         "choose", "draw", "bsdf",
     "meet",    "weigh", "light_occlusion", "rays",   "add"};
 
+/// What the stages of a run took, by stopwatch.h.
+using StageTicks = std::array<std::uint64_t, stage_names.size()>;
+
 template <class T> struct NamedStage {
     StageKind kind;
     Stage<T> run;
@@ -41,6 +44,9 @@ template <class T> struct Pipeline {
     bool reads_all_lights = false;
     std::size_t table_bytes = 0;             ///< of one point
     std::vector<NamedStage<T>> light, bsdf;  ///< one draw of each half
+    /// Where the light half's choice and numbers come from rounds: engine/strata_tile.h; else null.
+    const StrataStages<T>* strata = nullptr;
+    Stage<T> independent_numbers = nullptr;  ///< of a round's light draws
     SumStages<T> sums;
     bool colour = true;  ///< else the first channel of a sample's value is all three
     int light_draws = 0,

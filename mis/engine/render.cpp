@@ -20,6 +20,9 @@ TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uin
                       const StopToken& stop)
 {
     const GBuffer& shading = band.shading;
+    const int each = band.samples_per_observation = samples_together(strategy.strategy());
+    const SampleRange range{
+        .first = first, .chunk = count / each, .chunks = 1, .samples_per_observation = each};
     std::vector<TileTotals> totals(shading.tiles.size());
     executor.for_each(shading.tiles.size(), [&](std::size_t t) {
         if (stop.is_up()) return;
@@ -28,9 +31,9 @@ TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uin
         TileJob<float> job = strategy.job(tile, points);
         job.stop = &stop;
         const auto run = [&](Workspace<float>& workspace) {
-            totals[t] = workspace.run(
-                job, strategy.pipeline(tile), {.first = first, .chunk = count, .chunks = 1},
-                std::span(band.results).subspan(tile.first, tile.count), {}, {});
+            totals[t] =
+                workspace.run(job, strategy.pipeline(tile), range,
+                              std::span(band.results).subspan(tile.first, tile.count), {}, {});
         };
         // Where it is stopped, the samples that were taken stay.
         static_cast<void>(ends_without<Stopped>([&] { workspaces.with(run); }));
@@ -44,7 +47,8 @@ std::uint64_t least_samples(const Band& band)
 {
     std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
     for (const PointResult& result : band.results) least = std::min(least, result.luminance.count);
-    return band.results.empty() ? 0 : least;
+    return band.results.empty() ? 0
+                                : least * static_cast<std::uint64_t>(band.samples_per_observation);
 }
 
 void draw_band(const LitScene& scene, const Band& band, Image& image)

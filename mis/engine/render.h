@@ -18,13 +18,14 @@ struct Image {
 struct Band {
     GBuffer shading;
     std::vector<PointResult> results;  ///< one per shading point
+    int samples_per_observation = 1;   ///< of the results
 };
 
 /// The shading points of a picture's rows, unlit.
 Band find_band(const LitScene& scene, int first_row, int rows, const AnyExecutor& executor);
 
-/// Adds samples [first, first + count) to every shading point; once `stop` is up, to some alone
-/// (least_samples). Returns what it cost.
+/// Adds samples [first, first + count) to every shading point, whole observations of the strategy;
+/// once `stop` is up, to some alone (least_samples). Returns what it cost.
 TileTotals light_band(const ReadyStrategy<float>& strategy, Band& band, std::uint64_t first,
                       int count, WorkspacePool<float>& workspaces, const AnyExecutor& executor,
                       const StopToken& stop = {});

@@ -2,6 +2,7 @@
 
 #include "mis/engine/draw.h"
 #include "mis/engine/job.h"
+#include "mis/math/frame.h"
 
 #include <algorithm>
 #include <cstring>
@@ -52,6 +53,15 @@ MIS_INLINE const ShadingPoint& shading_point(const TileJob<T>& job, const Batch<
 {
     return job.points[batch.tile_point[static_cast<std::size_t>(
         batch.point[static_cast<std::size_t>(row)])]];
+}
+
+/// A shading point as policies see it.
+template <class T>
+MIS_INLINE ChoicePoint<T> choice_point(const TileJob<T>& job, const ShadingPoint& point)
+{
+    const Vec3<T> n = vec_cast<T>(point.n);
+    return {vec_cast<T>(point.x - job.origin), n, frame_around(n).to_local(vec_cast<T>(point.wo)),
+            AnyBsdf{job.bsdf, job.bsdf_type}, job.origin};
 }
 
 /// body(first, end) for each run of rows of one point.

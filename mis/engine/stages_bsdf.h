@@ -43,6 +43,31 @@ void evaluate_bsdf(const TileJob<T>& job, Batch<T>& batch)
     });
 }
 
+/// evaluate_bsdf and weigh_light in one, where the BSDF draws are the lobe's alone: of a light
+/// draw, the diffuse part counts in full, and the lobe by its weight. docs/theory.md, eq. 95.
+template <class V, class B, class Heuristic, class T>
+void weigh_parts(const TileJob<T>& job, Batch<T>& batch)
+{
+    const B &bsdf = *static_cast<const B*>(job.bsdf), &lobe = *static_cast<const B*>(job.lobe);
+    const DirectCounts<V> of_technique{V(job.light_count), V(job.bsdf_count)};
+    const V zero = number<V>(0), one = number<V>(1);
+    for_each_lane_group<V>(batch.rows, [&](int row) {
+        const Frame<V> frame = frame_around(batch.n.template get<V>(row));
+        Vec3<V> wi = frame.to_local(batch.wi.template get<V>(row));
+        const V cos_theta = lanes_of<V>(batch.cos_theta, row);
+        const V probability = lanes_of<V>(batch.probability, row);
+        const auto counts = cos_theta > zero && probability > zero;
+        wi.z = select(counts, cos_theta, one);
+        const BsdfValue<V> of_lobe = lobe.evaluate(batch.wo.template get<V>(row), wi);
+        const V weight = weight_of<Heuristic>(0, of_technique, V(lanes_of<V>(batch.light_pdf, row)),
+                                              of_lobe.pdf);
+        const Vec3<V> f_cos = (bsdf.evaluate_diffuse(wi).f + of_lobe.f * weight) * wi.z;
+        const Vec3<V> share = light_draw_share(f_cos, batch.radiance.template get<V>(row), one,
+                                               of_technique, V(select(counts, probability, one)));
+        batch.contribution.set(row, zero_unless(counts, share));
+    });
+}
+
 /// What a technique is given that does not ask the BSDF.
 struct NoBsdf {};
 

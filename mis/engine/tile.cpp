@@ -2,6 +2,7 @@
 
 #include "mis/engine/light_columns.h"
 #include "mis/engine/stopwatch.h"
+#include "mis/engine/strata_tile.h"
 
 #include <algorithm>
 #include <numeric>
@@ -18,6 +19,17 @@ void TileTotals::add(const TileTotals& other)
     if (invalid == 0) first_invalid = other.first_invalid;
     invalid += other.invalid;
 }
+
+void ChunkTotals::add(const Spread& observations, double weight)
+{
+    const double of_one = observations.count > 1 ? observations.m2 / (observations.count - 1) : 0;
+    mean += observations.mean;
+    variance += of_one;
+    relative_variance += of_one * weight;
+}
+
+template <class T> Workspace<T>::Workspace() : batch_(std::make_unique<Batch<T>>()) {}
+template <class T> Workspace<T>::~Workspace() = default;
 
 namespace {
 
@@ -46,7 +58,7 @@ template <class T> struct Workspace<T>::Run {
     Batch<T>& batch;
     Scratch& scratch;
     Column<double>& luminances;
-    std::array<std::uint64_t, stage_names.size()> stage_ticks{};
+    StageTicks& stage_ticks;
     std::size_t prepared = 0;    ///< points of the batch that have their table
     Spread chunk;                ///< of the point and chunk at hand
     double observation_sum = 0;  ///< over the samples so far of the observation at hand
@@ -228,10 +240,7 @@ template <class T> struct Workspace<T>::Run {
 
     void end_chunk(std::size_t point, std::size_t number)
     {
-        const double variance = chunk.count > 1 ? chunk.m2 / (chunk.count - 1) : 0;
-        totals[number].mean += chunk.mean;
-        totals[number].variance += variance;
-        if (!weights.empty()) totals[number].relative_variance += variance * weights[point];
+        totals[number].add(chunk, weights.empty() ? 0 : weights[point]);
         chunk = {};
     }
 };
@@ -252,17 +261,24 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     batch_->points = 0;
     batch_->invalid = batch_->shadow_rays = 0;
     scratch_->clear();
-    Run run{job, pipeline, range, results, weights, totals, *batch_, *scratch_, luminance_};
-    run.stage_ticks[static_cast<std::size_t>(StageKind::prepare)] =
+    StageTicks stage_ticks{};
+    stage_ticks[static_cast<std::size_t>(StageKind::prepare)] =
         pipeline.reads_all_lights ? ticks() - start_ticks : 0;
-    run.all();
+    if (pipeline.strata != nullptr) {
+        if (!strata_) strata_ = std::make_unique<StrataMemory<T>>();
+        StrataTile<T>(job, pipeline, *batch_, *strata_, stage_ticks)
+            .run(range, results, weights, totals);
+    } else {
+        Run{job,    pipeline, range,     results,    weights,
+            totals, *batch_,  *scratch_, luminance_, stage_ticks}
+            .all();
+    }
 
     TileTotals result;
     const double all_ticks = static_cast<double>(std::max<std::uint64_t>(ticks() - start_ticks, 1));
     result.seconds = thread_seconds() - start;
-    for (std::size_t k = 0; k < run.stage_ticks.size(); ++k)
-        result.stage_seconds[k] =
-            static_cast<double>(run.stage_ticks[k]) / all_ticks * result.seconds;
+    for (std::size_t k = 0; k < stage_ticks.size(); ++k)
+        result.stage_seconds[k] = static_cast<double>(stage_ticks[k]) / all_ticks * result.seconds;
     result.samples = job.points.size() * static_cast<std::uint64_t>(range.samples());
     result.shadow_rays = batch_->shadow_rays;
     result.invalid = batch_->invalid;

@@ -35,6 +35,9 @@ struct ChunkTotals {
     double mean = 0;
     double variance = 0;           ///< of one observation, unbiased; 0 for chunks of one
     double relative_variance = 0;  ///< the same, times the point's weight
+
+    /// A point's observations, and its weight.
+    void add(const Spread& observations, double weight);
 };
 
 /// What a tile's run cost.
@@ -47,10 +50,13 @@ struct TileTotals {
     void add(const TileTotals& other);
 };
 
+template <class T> struct StrataMemory;
+
 /// Room to run tiles in, one per thread: a batch, the tables of its points, the lights' columns.
 template <class T> class Workspace {
 public:
-    Workspace() : batch_(std::make_unique<Batch<T>>()) {}
+    Workspace();
+    ~Workspace();
 
     /// Runs a pipeline over a tile. job.points are its points; results, weights (1/(μ² + ε²), or
     /// empty) run along with them, totals along with range.chunks (or empty). Moments are merged in
@@ -65,6 +71,7 @@ private:
     struct Run;
 
     std::unique_ptr<Batch<T>> batch_;
+    std::unique_ptr<StrataMemory<T>> strata_;
     std::unique_ptr<Scratch> scratch_;
     LargeVector<T> columns_;
     Column<double> luminance_;

@@ -7,7 +7,7 @@
 
 namespace mis {
 
-constexpr std::array<const char*, 2> names_of(Model) { return {"multi", "one-sample"}; }
+constexpr std::array<const char*, 3> names_of(Model) { return {"multi", "one-sample", "strata"}; }
 
 /// Draws of one sample towards lights and of the BSDF, as files have them. Where no light is
 /// chosen, or none is drawn of the BSDF, `counts` need not say so.

@@ -12,6 +12,9 @@ struct NumberSource {
     /// Sobol' sequence, scrambled anew for every shading point and every n samples (sobol.h).
     std::uint64_t samples_per_scrambling = 0;
 
+    /// Did the user name the source? `strata` draws from sequences where he did not.
+    bool is_asked_for = false;
+
     NumberSource(std::uint64_t number, std::uint64_t samples = 0)  // NOLINT: a seed is a source
         : seed(number), samples_per_scrambling(samples)
     {

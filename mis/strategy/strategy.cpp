@@ -8,7 +8,9 @@
 #include "mis/strategy/names.h"
 #include "mis/technique/registry.h"
 
+#include <algorithm>
 #include <charconv>
+#include <optional>
 
 namespace mis {
 
@@ -48,22 +50,26 @@ std::string suggestion(std::string_view found, const std::vector<Choosable>& lis
     raise<StrategyError>("strategy \"" + std::string(strategy) + "\": " + reason);
 }
 
+/// A count of draws: digits alone, at most a million.
+std::optional<int> whole_number(std::string_view digits)
+{
+    int number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool is_number = error == std::errc{} && end == digits.data() + digits.size();
+    return is_number && number >= 0 && number <= 1'000'000 ? std::optional(number) : std::nullopt;
+}
+
 std::array<int, 2> parse_counts(std::string_view strategy, std::string_view text)
 {
-    std::array<int, 2> counts{};
     const std::size_t plus = text.find('+');
-    const auto number = [&](std::string_view digits, int& out) {
-        const auto [end, error] =
-            std::from_chars(digits.data(), digits.data() + digits.size(), out);
-        return error == std::errc{} && end == digits.data() + digits.size() && out >= 0 &&
-               out <= 1'000'000;
-    };
-    if (plus == std::string_view::npos || !number(text.substr(0, plus), counts[0]) ||
-        !number(text.substr(plus + 1), counts[1]))
-        refuse(strategy,
-               "found counts \"@" + std::string(text) +
-                   "\"; counts are @LIGHT+BSDF draws per sample, 0 to 1000000 each, as in @4+1");
-    return counts;
+    if (plus != std::string_view::npos) {
+        const std::optional<int> light = whole_number(text.substr(0, plus)),
+                                 bsdf = whole_number(text.substr(plus + 1));
+        if (light && bsdf) return {*light, *bsdf};
+    }
+    refuse(strategy,
+           "found counts \"@" + std::string(text) +
+               "\"; counts are @LIGHT+BSDF draws per sample, 0 to 1000000 each, as in @4+1");
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator)
@@ -154,8 +160,25 @@ const std::vector<Choosable>& technique_names()
     return names;
 }
 
+Strategy strata(int draws)
+{
+    return {.policy = "product",
+            .heuristic = "balance",
+            .technique = "projected",
+            .model = Model::strata,
+            .counts = {draws, std::max(draws / light_draws_per_lobe_draw, 1)}};
+}
+
+int samples_together(const Strategy& s)
+{
+    return s.model == Model::strata ? std::max(s.counts[0], 1) : 1;
+}
+
 std::string name_of(const Strategy& s)
 {
+    if (s.model == Model::strata)
+        return std::string(strata_name) +
+               (s.counts[0] > 0 ? "@" + std::to_string(s.counts[0]) : "");
     if (!s.chooses_light()) return s.technique;
     std::string name = s.policy + "/" + s.heuristic;
     if (s.technique != "cone") name += "/" + s.technique;
@@ -169,6 +192,7 @@ std::string name_of(const Strategy& s)
 Strategy checked(Strategy s)
 {
     const std::string name = name_of(s);
+    if (s.model == Model::strata) return s;
     if (find_named(technique_names(), s.technique) == nullptr)
         refuse_unknown(name, "technique", s.technique, technique_names());
     if (!s.chooses_light()) {
@@ -208,10 +232,32 @@ Strategy checked(Strategy s)
     return s;
 }
 
+namespace {
+
+/// "strata" with what stands behind the "@".
+Strategy parse_strata(std::string_view name, std::optional<std::string_view> draws)
+{
+    if (!draws) return strata(0);
+    const std::optional<int> number = whole_number(*draws);
+    if (!number || *number == 0)
+        refuse(name, "found \"@" + std::string(*draws) +
+                         "\"; its count is @N light draws per point, 1 to 1000000, as in "
+                         "strata@64");
+    return strata(*number);
+}
+
+}  // namespace
+
 Strategy parse_strategy(std::string_view name)
 {
     const std::size_t at = name.find('@');
     const std::vector<std::string_view> parts = split(name.substr(0, at), '/');
+    if (parts[0] == strata_name) {
+        if (parts.size() > 1)
+            refuse(name, "\"strata\" stands alone: it has its own policy, technique and weights");
+        return parse_strata(
+            name, at == std::string_view::npos ? std::nullopt : std::optional(name.substr(at + 1)));
+    }
     Strategy s;
     if (parts.size() == 1) {
         s.technique = parts[0];
@@ -223,6 +269,7 @@ Strategy parse_strategy(std::string_view name)
             std::vector<Choosable> whole;
             for (const Choosable& c : technique_names())
                 if (!mis::chooses_light(c.name)) whole.push_back(c);
+            whole.push_back({std::string(strata_name), ""});
             raise<StrategyError>("found \"" + std::string(name) +
                                  "\"; a strategy is policy/heuristic, or one of " + known(whole) +
                                  suggestion(name, whole));
@@ -250,6 +297,16 @@ Strategy parse_strategy(std::string_view name)
     }
     if (at != std::string_view::npos) s.counts = parse_counts(name, name.substr(at + 1));
     return checked(std::move(s));
+}
+
+Strategy parse_sample_strategy(std::string_view name)
+{
+    Strategy strategy = parse_strategy(name);
+    if (strategy.model == Model::strata)
+        refuse(name,
+               "its samples come together, in rounds over a tile, and none stands by itself; "
+               "the commands compare and render take it");
+    return strategy;
 }
 
 }  // namespace mis

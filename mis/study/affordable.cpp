@@ -29,7 +29,8 @@ double tried_out(const StudyGround& ground, const Strategy& strategy, int sample
     TimeObservation cost = run.try_out(1, 4, ground.workspaces, ground.stop);
     if (cost.seconds_per_sample < 1e-3) cost = run.try_out(8, 32, ground.workspaces, ground.stop);
     return static_cast<double>(ground.points.figure_lit) *
-           (samples * cost.seconds_per_sample + cost.seconds_per_point);
+           (samples * samples_together(strategy) * cost.seconds_per_sample +
+            cost.seconds_per_point);
 }
 
 /// least: the floor.

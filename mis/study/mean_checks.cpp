@@ -32,7 +32,7 @@ struct MeanSums {
 }  // namespace
 
 std::vector<MeanCheck> mean_checks(const StrategyRun& run, const StudyPoints& points,
-                                   const SharedTurns& shared, std::size_t place)
+                                   const SharedTurns& shared, std::optional<std::size_t> place)
 {
     std::vector<MeanSums> regions(points.regions);
     MeanSums image;
@@ -42,7 +42,8 @@ std::vector<MeanCheck> mean_checks(const StrategyRun& run, const StudyPoints& po
         for (std::size_t p = tile.first; p < tile.first + tile.count; ++p) {
             const Moments& own = run.results()[p].luminance;
             const auto samples = static_cast<double>(std::max<std::uint64_t>(own.count, 1));
-            const ValueAndError variance = shared.at(place, p);
+            const ValueAndError variance =
+                place ? shared.at(*place, p) : ValueAndError{own.variance(), own.variance_se()};
             of_tile.add(
                 {own.mean, variance.value / samples, std::pow(variance.se / samples, 2), 1});
         }

@@ -21,8 +21,9 @@ MeasuredStrategies::MeasuredStrategies(const StudyGround& ground,
                                        const std::vector<Strategy>& strategies, SetUp& set_up,
                                        bool has_closed_form)
     : ground_(ground), strategies_(strategies), set_up_(set_up), has_closed_form_(has_closed_form),
-      is_own_(strategies.size(), set_up.shared == nullptr), of_shared_(strategies.size())
+      of_shared_(strategies.size())
 {
+    for (const Strategy& s : strategies) is_own_.push_back(!set_up.shared || !can_share(s));
 }
 
 std::optional<std::size_t> MeasuredStrategies::place_of(std::size_t s) const
@@ -64,9 +65,9 @@ void MeasuredStrategies::look()
     set_up_.audit.emplace(shared, ground_.points.figure_lit, set_up_.how.weights, set_up_.sharing);
     ground_.executor.for_each(strategies_.size(), [&](std::size_t s) {
         const std::optional<std::size_t> place = place_of(s);
-        if (!set_up_.runs[s] || !place) return;
-        of_shared_[s] = {shared.figures(*place),
-                         mean_checks(*set_up_.runs[s], ground_.points, shared, *place)};
+        if (!set_up_.runs[s]) return;
+        if (place) of_shared_[s].figures = shared.figures(*place);
+        of_shared_[s].means = mean_checks(*set_up_.runs[s], ground_.points, shared, place);
     });
 }
 
@@ -83,8 +84,8 @@ StrategyMeasurements MeasuredStrategies::of(std::size_t s, const RelativeScale& 
     const StrategyRun* run = set_up_.runs[s].get();
     if (!run || (ground_.points.figure_lit > 0 && run->samples() == 0)) return not_run(s);
     StrategyMeasurements m = run->measurements(scale);
-    if (is_shared() && place_of(s)) {
-        if (!is_own_[s]) m.shared = of_shared_[s].figures;
+    if (is_shared()) {
+        if (!is_own_[s] && place_of(s)) m.shared = of_shared_[s].figures;
         m.mean_checks = of_shared_[s].means;
     }
     if (set_up_.audit) set_up_.audit->add_to(m, run->results());

@@ -112,7 +112,7 @@ private:
     /// Directions that all strategies share, if there is time for some rounds.
     void share()
     {
-        std::vector<Strategy> strategies = that_run(strategies_, made_);
+        std::vector<Strategy> strategies = that_run_and_can_share();
         if (strategies.empty()) return;
         const auto [counts, rounds_of_turn] = time_.goal().spp
                                                   ? counted(*time_.goal().spp)
@@ -173,6 +173,7 @@ private:
                                                  : cpu_,
                      turn = round_share * budget / static_cast<double>(strategies_.size());
         for (std::size_t s = 0; s < strategies_.size(); ++s) {
+            if (!can_share(strategies_[s])) continue;
             const double of_sample = std::max(made_.costs[s].seconds / made_.first_samples, 1e-12);
             const bool is_dear = of_sample > dear_share * budget;
             const double fewest = is_dear ? 1 : fewest_apart;
@@ -192,10 +193,17 @@ private:
                 made_.how.tile_factors = best_tile_factors(ground(audit_until), quick());
             if (!options_.numbers.is_sobol())
                 made_.audit.emplace(ground(audit_until), made_.how.weights,
-                                    that_run(strategies_, made_));
+                                    that_run_and_can_share());
             if (made_.audit && made_.audit->is_empty()) made_.audit.reset();
         } catch (const Stopped&) {  // all tiles alike; the report says that there is no audit
         }
+    }
+
+    std::vector<Strategy> that_run_and_can_share() const
+    {
+        std::vector<Strategy> strategies = that_run(strategies_, made_);
+        std::erase_if(strategies, [](const Strategy& s) { return !can_share(s); });
+        return strategies;
     }
 
     /// Those whose first samples take little of the time.
@@ -203,7 +211,7 @@ private:
     {
         std::vector<Strategy> strategies;
         for (std::size_t s = 0; s < strategies_.size(); ++s)
-            if (made_.runs[s] && made_.costs[s].seconds < 0.05 * cpu_)
+            if (made_.runs[s] && can_share(strategies_[s]) && made_.costs[s].seconds < 0.05 * cpu_)
                 strategies.push_back(strategies_[s]);
         return strategies;
     }

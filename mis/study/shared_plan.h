@@ -12,6 +12,9 @@
 
 namespace mis {
 
+/// Is the variance of a strategy a sum over single directions? That of `strata` is not.
+inline bool can_share(const Strategy& strategy) { return strategy.model != Model::strata; }
+
 /// The place of a name in a list, at whose end it is put where it is missing.
 std::size_t place_of(std::string_view name, std::vector<std::string>& names);
 

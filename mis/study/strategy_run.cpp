@@ -8,11 +8,19 @@
 
 namespace mis {
 
+namespace {
+
+int samples_of_observation(const Strategy& strategy, const NumberSource& numbers)
+{
+    if (strategy.model == Model::strata) return samples_together(strategy);
+    return numbers.is_sobol() ? static_cast<int>(numbers.samples_per_scrambling) : 1;
+}
+
+}  // namespace
+
 StrategyRun::StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
                          const NumberSource& numbers, const StopToken& stop)
-    : points_(&points),
-      samples_per_observation_(numbers.is_sobol() ? static_cast<int>(numbers.samples_per_scrambling)
-                                                  : 1),
+    : points_(&points), samples_per_observation_(samples_of_observation(strategy, numbers)),
       ready_(scene, strategy, kernels<float>(), numbers, {}, stop),
       results_(points.shading.points.size()), tiles_(points.shading.tiles.size())
 {
@@ -138,6 +146,14 @@ TimeObservation StrategyRun::observed(std::span<const TileTotals> totals, std::u
     return {sum.seconds_per_sample / points, sum.seconds_per_point / points, round};
 }
 
+namespace {
+
+/// Number of the first sample that is tried out; of `strata`, of which some hundred together are
+/// one observation, no study has so many either.
+constexpr std::uint64_t tried_out = std::uint64_t{1} << 40;
+
+}  // namespace
+
 TimeObservation StrategyRun::try_out(int samples, std::size_t points,
                                      WorkspacePool<float>& workspaces, const StopToken& stop) const
 {
@@ -152,8 +168,12 @@ TimeObservation StrategyRun::try_out(int samples, std::size_t points,
             TileJob<float> job =
                 ready_.job(tile, std::span(points_->shading.points).subspan(tile.first, count));
             job.stop = &stop;
+            const int each = samples_together(strategy());
             totals.add(workspace.run(job, ready_.pipeline(tile),
-                                     {std::uint64_t{1} << 40, samples, 1}, results, {}, {}));
+                                     {.first = tried_out,
+                                      .chunk = (samples + each - 1) / each,
+                                      .samples_per_observation = each},
+                                     results, {}, {}));
             tried += count;
         }
     });

@@ -9,6 +9,7 @@
 #include "mis/study/set_up.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace mis {
@@ -102,7 +103,12 @@ private:
                         static_cast<int>(std::min<std::size_t>(points_->figure_tiles, 1 << 20))));
     }
 
-    NumberSource numbers() const { return {options_.seed, options_.samples_per_scrambling}; }
+    NumberSource numbers() const
+    {
+        NumberSource numbers(options_.seed, options_.samples_per_scrambling);
+        numbers.is_asked_for = options_.names_sampler;
+        return numbers;
+    }
 
     int samples_per_observation() const
     {
@@ -120,24 +126,43 @@ private:
         options_.progress(options_.spp ? of_plan : time_.elapsed() / goal().budget(), report_);
     }
 
-    void run_spp()
+    /// Those of whose samples so many come together take part; the others rest.
+    RoundOptions only_those_of(int samples) const
     {
-        plan_ = plan_for(*options_.spp / static_cast<std::uint64_t>(samples_per_observation()));
+        RoundOptions how = set_up_.how;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            how.rests[s] = how.rests[s] || samples_together(strategies_[s]) != samples;
+        return how;
+    }
+
+    /// A fixed number of samples, for those only of whose samples so many come together.
+    void run_spp(int together)
+    {
+        const RoundOptions how = only_those_of(together);
+        const int each = together > 1 ? together : samples_per_observation();
+        plan_ = plan_for(*options_.spp / static_cast<std::uint64_t>(each));
         double samples = 0, all = 0, last_look = 0;
         for (const int chunk : plan_.chunks) all += chunk;
         for (const int chunk : plan_.chunks) {
-            rounds_->take(chunk, plan_, set_up_.how);
+            rounds_->take(chunk, plan_, how);
             samples += chunk;
             if (!share_up_to(samples / all) || is_stopped()) return;
             if (!options_.progress || rounds_->count() < 3 || samples < 1.4 * last_look) continue;
             last_look = samples;
             rank_now(1);  // to be shown; it decides nothing
         }
-        if (plan_.remainder > 0)
-            for (auto& run : set_up_.runs)
-                if (run && !is_stopped())
-                    run->sample_apart({plan_.remainder}, workspaces_, ground_.executor,
-                                      time_.stop());
+        if (plan_.remainder == 0) return;
+        for (std::size_t s = 0; s < strategies_.size(); ++s)
+            if (set_up_.runs[s] && !how.rests[s] && !is_stopped())
+                set_up_.runs[s]->sample_apart({plan_.remainder}, workspaces_, ground_.executor,
+                                              time_.stop());
+    }
+
+    void run_spp()
+    {
+        std::set<int> kinds;
+        for (const Strategy& s : strategies_) kinds.insert(samples_together(s));
+        for (const int together : kinds) run_spp(together);
     }
 
     /// Turns of shared directions, until that share of those that were asked for is drawn. False

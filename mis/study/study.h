@@ -17,6 +17,8 @@ struct StudyOptions {
     /// 0: independent samples. n: Sobol' sequences of n samples, each scrambled apart; variances
     /// are over scramblings alone (docs/theory.md (70)), and there is no audit. n divides spp.
     std::uint64_t samples_per_scrambling = 0;
+    /// Are the numbers asked for? Else `strata` has those that suit it (NumberSource).
+    bool names_sampler = false;
     /// Variances come from every strategy's own samples; else, where numbers are independent and
     /// there is time, from directions that all share (docs/theory.md §25).
     bool own_samples = false;

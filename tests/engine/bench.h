@@ -33,6 +33,14 @@ inline std::vector<Strategy> every_strategy()
     return list;
 }
 
+/// Those, and strategies whose samples come together.
+inline std::vector<Strategy> every_strategy_and_strata()
+{
+    std::vector<Strategy> list = every_strategy();
+    for (const int draws : {1, 4, 16, 64}) list.push_back(strata(draws));
+    return list;
+}
+
 /// A scene with its probes found, ready for any strategy.
 struct TestScene {
     Scene scene;
@@ -67,7 +75,7 @@ struct Outcome {
     TileTotals totals;
 };
 
-/// Samples [0, samples) of a scene's first probe.
+/// Samples [0, samples) of a scene's first probe, or as many more as come together.
 template <class T>
 Outcome run_probe(const TestScene& test, const Strategy& strategy, const Kernels<T>& kernels,
                   int samples, std::uint64_t seed = 1)
@@ -76,9 +84,11 @@ Outcome run_probe(const TestScene& test, const Strategy& strategy, const Kernels
     const Tile& tile = test.probes.tiles.at(0);
     Workspace<T> workspace;
     Outcome outcome;
+    const int each = samples_together(strategy);
+    const SampleRange range{.chunk = (samples + each - 1) / each, .samples_per_observation = each};
     outcome.totals =
-        workspace.run(ready.job(tile, test.probes.points), ready.pipeline(tile.material),
-                      {.chunk = samples, .chunks = 1}, std::span(&outcome.result, 1), {}, {});
+        workspace.run(ready.job(tile, test.probes.points), ready.pipeline(tile.material), range,
+                      std::span(&outcome.result, 1), {}, {});
     return outcome;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 /// The chance that any of the tests of this file fails where all is right.
 constexpr double false_alarm = 1e-6;
-constexpr int tests_at_most = 2000;
+constexpr int tests_at_most = 4000;
 constexpr std::uint64_t seed_of_means = 12;
 
 double z_of(const Outcome& outcome, double exact)
@@ -29,7 +29,7 @@ double z_of(const Outcome& outcome, double exact)
 template <class T> void expect_means(const TestScene& test, double exact, int samples)
 {
     const double bound = z_bound(false_alarm, tests_at_most);
-    for (const Strategy& s : every_strategy()) {
+    for (const Strategy& s : every_strategy_and_strata()) {
         const Outcome outcome =
             run_probe<T>(test, s, kernels<T>(), scaled(s.chooses_light() ? samples : 4 * samples),
                          seed_of_means);
@@ -156,7 +156,7 @@ TEST(EveryStrategy, Is0AndNeverInvalidUnderBlackLightsAndUnderNone)
     for (const Lights& lights : {black, Lights{}}) {
         TestScene test(probe_under(lights, grey_floor()));
         test.sample_the_dark();
-        for (const Strategy& s : every_strategy()) {
+        for (const Strategy& s : every_strategy_and_strata()) {
             const Outcome outcome = run_probe<float>(test, s, kernels<float>(), 300);
             EXPECT_EQ(outcome.result.luminance.mean, 0) << name_of(s);
             EXPECT_EQ(outcome.result.luminance.m2, 0) << name_of(s);
@@ -172,7 +172,7 @@ TEST(EveryStrategy, Is0UnderLightsBelowTheHorizon)
     for (const char* type : {"lambert", "blinn", "ggx"}) {
         TestScene test(probe_under(lights, glossy(type)));
         test.sample_the_dark();
-        for (const Strategy& s : every_strategy()) {
+        for (const Strategy& s : every_strategy_and_strata()) {
             const Outcome outcome = run_probe<float>(test, s, kernels<float>(), 300);
             EXPECT_EQ(outcome.result.luminance.mean, 0) << name_of(s);
             EXPECT_EQ(outcome.totals.shadow_rays + outcome.totals.invalid, 0U) << name_of(s);
@@ -198,7 +198,7 @@ TEST(EveryStrategy, IsFiniteUnderLightsThatAreHardAndOnEveryMaterial)
     for (const char* type : {"lambert", "lecture", "blinn", "ggx"})
         for (const Material& material : materials_of(type)) {
             const TestScene test(probe_under(hard_lights(), material));
-            for (const Strategy& s : every_strategy()) {
+            for (const Strategy& s : every_strategy_and_strata()) {
                 const Outcome outcome = run_probe<float>(test, s, kernels<float>(), 256);
                 ASSERT_EQ(outcome.totals.invalid, 0U) << name_of(s) << " on " << type;
                 ASSERT_TRUE(std::isfinite(outcome.result.luminance.mean))

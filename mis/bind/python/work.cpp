@@ -35,7 +35,7 @@ std::vector<Strategy> parsed(const std::vector<std::string>& names)
 {
     if (names.empty()) throw ArgumentError("strategies: found none; name at least one");
     std::vector<Strategy> strategies;
-    for (const std::string& name : names) strategies.push_back(parse_strategy(name));
+    for (const std::string& name : names) strategies.push_back(parse_sample_strategy(name));
     return strategies;
 }
 
@@ -65,8 +65,9 @@ Picture render(const ReadyScene& ready, const std::string& strategy, std::int64_
         throw ArgumentError(ready.scene.file + ": found no camera; a picture needs one");
     check_range("spp", spp, 1, most_samples);
     const AnyExecutor executor = executor_of(run);
-    const ReadyStrategy<float> prepared(ready.lit, parse_strategy(strategy), kernels<float>(),
-                                        source_of(sampler, run.seed), {}, run.token());
+    const ReadyStrategy<float> prepared(ready.lit, parse_sample_strategy(strategy),
+                                        kernels<float>(), source_of(sampler, run.seed), {},
+                                        run.token());
     const auto [width, height] = ready.scene.camera->resolution;
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     Picture picture{.image = {width, height, std::vector<Vec3<float>>(pixels, Vec3<float>(0.0F))},
@@ -137,8 +138,9 @@ std::vector<double> samples(const ReadyScene& ready, const std::string& strategy
     check_range("count", count, 0, most_samples);
     check_range("first", first, 0, most_samples);
     const AnyExecutor executor = stoppable(executor_of(run), run.token());
-    const ReadyStrategy<float> prepared(ready.lit, parse_strategy(strategy), kernels<float>(),
-                                        source_of(sampler, run.seed), {}, run.token());
+    const ReadyStrategy<float> prepared(ready.lit, parse_sample_strategy(strategy),
+                                        kernels<float>(), source_of(sampler, run.seed), {},
+                                        run.token());
     const OnePoint one = found(ready, place, executor);
     std::vector<double> values(static_cast<std::size_t>(count), 0.0);
     if (one.point == nullptr) return values;
