@@ -97,6 +97,13 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"cost VEACH --precision float,", "names separated by commas"},
         BadLine{"cost VEACH --spp 0", "--spp: found 0"},
         BadLine{"cost VEACH --spp 99999999", "--spp: found 99999999"},
+        BadLine{"render VEACH --strategy strata@0 --out x.exr", "1 to 1000000, as in strata@64"},
+        BadLine{"render VEACH --strategy strata@64 --spp 100 --out x.exr", "some whole number"},
+        BadLine{"compare VEACH --strategy strata/light", "\"strata\" stands alone"},
+        BadLine{"compare VEACH --strategy strata@64 --spp 128", "at least 256; found 128"},
+        BadLine{"compare VEACH --strategy strata@64 --spp 300", "multiple of 64"},
+        BadLine{"cost VEACH --strategy strata", "`mis compare` has"},
+        BadLine{"replay VEACH --strategy strata@4 --sample 0 --pixel 1,1", "none stands by itself"},
         BadLine{"cost VEACH --spp 8 --time 2", "found more than one"},
         BadLine{"cost VEACH --time 0", "--time: found 0"},
         BadLine{"cost VEACH --error 0.1", "--error"},
@@ -217,7 +224,7 @@ TEST(CommandLine, GivesTheSameFiguresOnAnyNumberOfThreads)
 {
     const std::string words = "compare '" + scene("veach") +
                               "' --resolution 32x24 --spp 32 --strategy "
-                              "power/balance,all/light,brdf --json - --quiet --threads ";
+                              "power/balance,all/light,brdf,strata@8 --json - --quiet --threads ";
     const auto figures = [&](int threads) {
         const Outcome outcome = mis_with(words + std::to_string(threads));
         EXPECT_EQ(outcome.exit, 0) << outcome.error;
@@ -572,6 +579,40 @@ TEST(Compare, RanksNoMoreThanTheListsThatAreNamed)
         (std::vector<std::string>{"product/light", "product/balance", "product/power", "brdf"}));
 }
 
+TEST(Compare, RanksStrataOfAsManyDrawsAsTheEfficiencyIsForWhereItCan)
+{
+    const std::string small = "compare '" + scene("single") + "' --resolution 8x6 --quiet --json -";
+    const auto names = [&](const std::string& options) {
+        return strategies_of(nlohmann::json::parse(mis_with(small + options).out).at("scenes")[0]);
+    };
+    EXPECT_EQ(names(" --spp 64").back(), "strata@16");
+    EXPECT_EQ(names(" --spp 64 --at 8").back(), "strata@8");
+    EXPECT_EQ(names(" --spp 63").back(), "brdf");  // not four times 16
+    EXPECT_EQ(names(" --spp 64 --strategy strata,strata@4"),
+              (std::vector<std::string>{"strata@16", "strata@4"}));
+}
+
+TEST(Compare, RefusesStrataOfMoreLightsThanItKeepsFiguresOf)
+{
+    const TemporaryFolder folder;
+    auto json = nlohmann::json::parse(text_of(scene("single")), nullptr, true, true);  // comments
+    const auto light = json.at("lights").at(0);
+    while (json.at("lights").size() < 1025) {
+        auto next = light;
+        next["center"][0] = 10.0 + double(json.at("lights").size());
+        json["lights"].push_back(next);
+    }
+    const std::string file = (folder / "many.json").string();
+    std::ofstream(file) << json.dump();
+    const Outcome run = mis_with("render '" + file + "' --strategy strata --spp 4 --out '" +
+                                 (folder / "a.exr").string() + "'");
+    EXPECT_EQ(run.exit, 2);
+    EXPECT_NE(run.error.find("1025 lights; at most 1024"), run.error.npos) << run.error;
+    const Outcome ranked = mis_with("compare '" + file + "' --resolution 4x4 --spp 64 --json -");
+    EXPECT_EQ(ranked.exit, 0) << ranked.error;
+    EXPECT_NE(ranked.error.find("left out: strata@16: "), ranked.error.npos) << ranked.error;
+}
+
 /// Mean and variance of every strategy of a report, to the last digit that is written.
 std::string figures_of(const std::string& report)
 {
@@ -591,7 +632,8 @@ TEST(Effects, LeftOutChangeNoDigitOnAnyShippedScene)
         const std::string words =
             "compare '" + file.path().string() +
             "' --resolution 24x16 --spp 32 --quiet --json - --strategy "
-            "uniform/power,solid-angle/light,all/balance,radiant-solid-angle/maximum/union,brdf";
+            "uniform/power,solid-angle/light,all/balance,radiant-solid-angle/maximum/union,brdf,"
+            "strata@8";
         const Outcome all = mis_with(words + " --effects all"), leaner = mis_with(words);
         ASSERT_EQ(all.exit, 0) << all.error;
         ASSERT_EQ(leaner.exit, 0) << leaner.error;

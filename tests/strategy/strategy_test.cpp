@@ -106,6 +106,16 @@ TEST(Strategy, WhatIsDefaultMayBeSaid)
     EXPECT_EQ(parse_strategy("brdf@0+1"), parse_strategy("brdf"));
 }
 
+TEST(Strategy, StrataStandsAloneWithItsDraws)
+{
+    for (const char* name : {"strata", "strata@1", "strata@64"})
+        EXPECT_EQ(name_of(parse_strategy(name)), name);
+    EXPECT_EQ(samples_together(parse_strategy("strata@64")), 64);
+    EXPECT_EQ(samples_together(parse_strategy("product/light@64+0")), 1);
+    EXPECT_EQ(parse_sample_strategy("brdf"), parse_strategy("brdf"));
+    EXPECT_THROW(parse_sample_strategy("strata@64"), StrategyError);
+}
+
 struct Refusal {
     std::string_view name, reason;
 };
@@ -133,6 +143,12 @@ TEST(Strategy, TheReasonOfARefusalIsSaid)
              {"uniform/balance/one-sample/union", "the technique stands before \"one-sample\""},
              {"uniform/balance/cone/union", "one technique"},
              {"uniform/balance/one-sample/one-sample", "twice"},
+             {"strata@", "1 to 1000000"},
+             {"strata@0", "1 to 1000000"},
+             {"strata@-4", "1 to 1000000"},
+             {"strata@4+1", "1 to 1000000"},
+             {"strata@1000001", "1 to 1000000"},
+             {"strata/balance", "stands alone"},
          })
         EXPECT_THAT(refusal(name), HasSubstr(std::string(reason))) << name;
 }
