@@ -40,16 +40,6 @@ void find_shares(const TileJob<T>& job, const ShadingPoint& shading_point, std::
         out[k] = static_cast<T>(static_cast<double>(out[k]) * inverse);
 }
 
-/// Σ over lanes.
-template <class V> MIS_INLINE double sum_of_lanes(const V& v)
-{
-    alignas(64) Scalar<V> lane[lane_count<V>];  // NOLINT: filled at once
-    store_lanes(&lane[0], v);
-    double sum = 0;
-    for (std::size_t k = 0; k < lane_count<V>; ++k) sum += static_cast<double>(lane[k]);
-    return sum;
-}
-
 /// Posterior means of being seen, of lights [k, k + lane_count).
 template <class V, class T>
 MIS_INLINE V seen_at(const StrataKnowledge<T>& known, std::size_t k, const V& drawn)
@@ -76,9 +66,9 @@ MIS_INLINE T find_threshold(const StrataKnowledge<T>& known, int draws, T* root)
     }
     T threshold = std::numeric_limits<T>::infinity();
     const int most = draws / 2;
-    double rest = sum_of_lanes(sum);
+    T rest = sum_of_lanes(sum);
     for (int count = 0; most > 0;) {
-        const T bound = static_cast<T>(2 * rest / draws);
+        const T bound = 2 * rest / static_cast<T>(draws);
         V left = zero, above = zero;
         for (std::size_t k = 0; k < size; k += lane_count<V>) {
             const V value = load_lanes<V>(root + k);
@@ -129,7 +119,7 @@ void part_lights(const StrataKnowledge<T>& known, int draws, StrataParts<T>& par
         }
         parts.rest_sum += parts.block_sums[b / block_size] = sum_of_block(rest + b);
     }
-    parts.rest_seen = sum_of_lanes(seen_sum);
+    parts.rest_seen = static_cast<double>(sum_of_lanes(seen_sum));
 }
 
 /// Posterior means of a tile, [place].

@@ -77,6 +77,22 @@ template <class T, class A> MIS_INLINE bool any_lane(const xsimd::batch_bool<T, 
 }
 #endif
 
+/// Σ over all lanes, in their own precision.
+template <class T> MIS_INLINE T sum_of_lanes(const T& number)
+{
+    return number;
+}
+#if !defined(MIS_WITHOUT_LANES)
+template <class T, class A> MIS_INLINE T sum_of_lanes(const xsimd::batch<T, A>& lanes)
+{
+#if XSIMD_VERSION_MAJOR >= 9
+    return xsimd::reduce_add(lanes);
+#else
+    return xsimd::hadd(lanes);
+#endif
+}
+#endif
+
 /// The larger and the smaller number, lane by lane. A NaN in `a` gives b: a bound also cleans.
 template <class T> MIS_INLINE T max_of(const T& a, const T& b) { return select(a > b, a, b); }
 template <class T> MIS_INLINE T min_of(const T& a, const T& b) { return select(a < b, a, b); }
