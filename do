@@ -8,7 +8,7 @@ usage() {
 ./do COMMAND …     builds mis where needed and runs `mis COMMAND …`; try ./do compare scenes/veach.json
 ./do test …        builds and runs the tests; … goes to ctest (-R NAME, -V)
 ./do bench …       measures every bar of docs/performance.md; --quick, --out FILE, --benchmark_filter=REGEX, …
-./do which-light   measures every figure of docs/which-light.md anew, in ten minutes (--quick: soon and rough, to build)
+./do which-light   measures every figure of docs/which-light.md anew, in fifteen minutes (--quick: soon and rough, to build)
 ./do fuzz SECONDS  lets libFuzzer loose on each reader of files for so long (600)
 ./do docs          what is public as HTML, in build/docs/html
 ./do format        formats the sources; ./do format --check only says what it would change

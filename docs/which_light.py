@@ -29,6 +29,8 @@ SAMPLES = {  # per point
 }  # fmt: skip
 TOO_MANY = {"hundred", "street"}  # lights, to draw towards each
 COUNTS = [10**3, 10**4, 10**5, 10**6]  # of random lights
+DRAWS = [16, 64, 256]  # at a point, that are spread together
+TOGETHER = ["product/balance", "product/light/projected", *(f"strata@{n}" for n in DRAWS)]
 SURFACES = {  # under random lamps that nothing shades but they themselves
     "matt": {"type": "lambert", "albedo": 0.5},
     **{f"`blinn`, m = {m}": {"type": "blinn", "diffuse": 0.1, "specular": 0.9, "exponent": m} for m in (20, 200, 2000)},
@@ -56,6 +58,8 @@ def runs_for(folder, quick):
         width, height = re.search(r'"resolution": *\[(\d+), *(\d+)\]', (ROOT / file).read_text()).groups()
         size = f"{int(width) // part}x{int(height) // part}"
         runs.append(Run(name, file, size, 64 if quick else samples, strategies_for(name)))
+        small = f"{int(width) // (2 * part)}x{int(height) // (2 * part)}"
+        runs.append(Run(f"{name}-together", file, small, 1024 if quick else 32768, TOGETHER))
     for count in COUNTS[:2] if quick else COUNTS:
         file, samples = folder / f"random-{count}.scene.json", 64 if quick else 8192
         strategies = [f"{policy}/power" for policy in ("uniform", "power", "product", "tree")]
@@ -239,6 +243,13 @@ def times(strategy, unit):
     return ("~" if error_of(figure) > 0.2 else "") + number(figure["value"] / unit)
 
 
+def times_or_doubt(strategy, unit):
+    """The same, with the figure even where it is not resolved: of many draws together there are few observations."""
+    if is_ranked(strategy) or strategy["status"] != "not_resolved":
+        return times(strategy, unit)
+    return number(strategy["relative_variance"]["value"] / unit) + "?"
+
+
 def duration(strategy):
     """Time to 1 % error."""
     if not is_ranked(strategy):
@@ -284,6 +295,18 @@ def ways(found):
     return by_scene(found, ["1 is", *columns], cells)
 
 
+def together(found):
+    """The relative variance per draw of so many draws together, over that of `product/balance`."""
+
+    def cells(name):
+        strategies = found[f"{name}-together"]["strategies"]
+        unit = value(strategies[TOGETHER[0]], "relative_variance")
+        return [number(unit), *(times_or_doubt(strategies[s], unit) for s in TOGETHER[1:])]
+
+    rows = [[f"[{n}](which-light-tables.md#{n})", str(found[n]["lights"]), *cells(n)] for n in SAMPLES]
+    return table(["scene", "lights", "1 is", *TOGETHER[1:]], rows)
+
+
 def seconds(found):
     """Time to 1 % error by the soonest strategy of each policy, and of all that draw one light."""
     key, columns = "seconds_to_1_percent", [*CHOICES, "all"]
@@ -309,7 +332,7 @@ def figures_of(s):
 def scaling(found):
     """The figures of random lights, and the efficiency at 16 samples per point over that of the first strategy."""
     rows = []
-    for scene in (found[name] for name in found if name not in SAMPLES):
+    for scene in (found[name] for name in found if name.startswith("random-")):
         first, *_ = strategies = list(scene["strategies"].values())
         for s in strategies:
             gain = number(value(s, "efficiency") / value(first, "efficiency")) if is_ranked(s) else "?"
@@ -335,7 +358,7 @@ def lamps(found):
     return table(["scene", *columns], [[what, *cells(figures)] for what, figures in found.lamps.items()])
 
 
-TABLES = [policies, ways, seconds, scaling, lamps, origin]
+TABLES = [policies, ways, together, seconds, scaling, lamps, origin]
 COMPLETE = """# Which light: the complete tables
 
 By `./do which-light`; [which-light.md](which-light.md) says what they show and how they were made,
@@ -405,7 +428,7 @@ def pictures(found):
     """File name → SVG."""
     variance, time = "relative_variance", "seconds_to_1_percent"
     choices = {name: {choice: best(found[name], choice, variance) for choice in CHOICES} for name in SAMPLES}
-    lamps = {f"{scene['lights']} lamps": scene["strategies"] for name, scene in found.items() if name not in SAMPLES}
+    lamps = {f"{scene['lights']} lamps": scene["strategies"] for name, scene in found.items() if name.startswith("random-")}
     return {"which-light-samples.svg": bars(choices, variance), "which-light-lamps.svg": bars(lamps, time)}
 
 
@@ -479,7 +502,7 @@ def publish(found, into):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="The tables and pictures of docs/which-light.md, in some ten minutes.")
+    parser = argparse.ArgumentParser(description="The tables and pictures of docs/which-light.md, in some fifteen minutes.")
     parser.add_argument("--quick", action="store_true", help="rough figures, soon; the page goes to build/which-light-quick")
     parser.add_argument("--from", dest="reports", type=pathlib.Path, metavar="FOLDER", help="measure nothing, read reports")
     parser.add_argument("--into", type=pathlib.Path, metavar="FOLDER", help="where the pages go (docs)")

@@ -325,7 +325,7 @@ void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strate
     remark("{}: {} x {} pixels, {}, {}, {:.2f} s{}\n", options.out, outcome.image.width,
            outcome.image.height, many(outcome.shading_points, "shading point"), how, seconds,
            interruption(outcome));
-    const bool is_sobol = strategy && options.run.is_sobol();
+    const bool is_sobol = strategy && options.run.is_sobol() && strategy->model != Model::strata;
     if (outcome.error)
         remark("{}{}\n", in_words(*outcome.error),
                is_sobol ? ", were its samples independent" : "");
@@ -336,6 +336,13 @@ void print_outcome(const Outcome& outcome, const std::optional<Strategy>& strate
     if (outcome.invalid > 0)
         remark("{} {} NaN or infinite, and counted as 0\n", many(outcome.invalid, "sample"),
                outcome.invalid == 1 ? "was" : "were");
+}
+
+/// Where the numbers came from: `strata` draws from sequences unless it is told not to.
+std::string sampler_of(const std::optional<Strategy>& strategy, const RunOptions& run)
+{
+    const bool has_own = strategy && strategy->model == Model::strata && !run.names_sampler;
+    return has_own ? "sobol" : run.sampler;
 }
 
 /// `strata` without a number has all of --spp, or 64, draws together; with one, --spp is some times
@@ -388,7 +395,7 @@ int run_render(const RenderOptions& options)
               ExrMetadata(MIS_VERSION, options.run.command_line, options.run.seed)
                   .add("scene", ready.scene.name)
                   .add("strategy", strategy ? name_of(*strategy) : "exact")
-                  .add("sampler", options.run.sampler)
+                  .add("sampler", sampler_of(strategy, options.run))
                   .add("samples_per_point", std::to_string(outcome.samples))
                   .add("partial", outcome.is_partial ? "true" : "false"));
     if (!options.run.quiet) print_outcome(outcome, strategy, options, seconds_since(start));

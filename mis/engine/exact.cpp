@@ -74,7 +74,9 @@ bool have_one_colour(const Scene& scene)
 
 bool gives_closed_form(const Scene& scene, const Strategy& s)
 {
-    if (!s.chooses_light() || s.heuristic != "light" || !draws_by_irradiance(s.technique))
+    // Of `strata`, no lobe is drawn at such points; as all lights are seen, all means are 1.
+    const bool draws_lights_alone = s.heuristic == "light" || s.model == Model::strata;
+    if (!s.chooses_light() || !draws_lights_alone || !draws_by_irradiance(s.technique))
         return false;
     return draws_every_light(s.policy) || scene.lights.size() == 1 ||
            (weighs_by_irradiance(s.policy) && have_one_colour(scene));

@@ -79,6 +79,7 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
 {
     const Lights& lights = scene.scene().lights;
     if (strategy.model == Model::strata) {
+        if (!numbers.is_asked_for) numbers.samples_per_scrambling = one_scrambling;
         order_ = scene.order(stop);
     } else if (strategy.chooses_light() && numbers.is_sobol()) {
         order_ = scene.order(stop);
@@ -111,8 +112,6 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
     common_.surfaces = scene.surfaces();
     common_.policy = policy_.get();
     common_.numbers = numbers;
-    if (strategy.model == Model::strata && !numbers.is_asked_for)
-        common_.numbers.samples_per_scrambling = one_scrambling;
     const bool one_sample = strategy.model == Model::one_sample;
     common_.draws_every_light = strategy.chooses_light() && draws_every_light(strategy.policy);
     common_.draws_per_light = static_cast<std::uint32_t>(std::max(strategy.counts[0], 1));

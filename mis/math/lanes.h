@@ -78,10 +78,7 @@ template <class T, class A> MIS_INLINE bool any_lane(const xsimd::batch_bool<T, 
 #endif
 
 /// Σ over all lanes, in their own precision.
-template <class T> MIS_INLINE T sum_of_lanes(const T& number)
-{
-    return number;
-}
+template <class T> MIS_INLINE T sum_of_lanes(const T& number) { return number; }
 #if !defined(MIS_WITHOUT_LANES)
 template <class T, class A> MIS_INLINE T sum_of_lanes(const xsimd::batch<T, A>& lanes)
 {

@@ -116,7 +116,10 @@ void expect_exact_strategies_are_those_without_variance(const Scene& scene)
     ASSERT_TRUE(planned.has_form());
     const AnyExecutor serial = any_executor(SerialExecutor{});
     EXPECT_TRUE(has_closed_form(planned.test.lit, planned.test.probes, 1, serial));
-    for (const Strategy& strategy : every_strategy()) {
+    std::vector<Strategy> strategies = every_strategy();
+    strategies.push_back(strata(1));
+    strategies.push_back(strata(64));
+    for (const Strategy& strategy : strategies) {
         if (strategy.policy == "tree" || strategy.heuristic == "cutoff" ||
             strategy.heuristic == "maximum")
             continue;

@@ -223,5 +223,19 @@ TEST(Strata, HaveFarLessVarianceBySequences)
               0.6 * mean_variance(run_floor(workspace, floor, independent, range)));
 }
 
+TEST(Strata, DrawTheLobeBySequencesToo)
+{
+    const Floor floor;
+    const LitScene lit(floor.scene, nullptr, called_for(floor.scene));
+    NumberSource independent(5);
+    const auto stage_of = [&] {
+        const ReadyStrategy<float> ready(lit, strata(16), kernels<float>(), independent);
+        return ready.pipeline(0).bsdf.at(1).run;
+    };
+    EXPECT_EQ(stage_of(), kernels<float>().sobol_bsdf_numbers);
+    independent.is_asked_for = true;
+    EXPECT_EQ(stage_of(), kernels<float>().bsdf_numbers);
+}
+
 }  // namespace
 }  // namespace mis
