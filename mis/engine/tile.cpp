@@ -259,6 +259,7 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
             fill_light_columns(*job.lights, job.origin, columns_, job.order, job.radiance_scale);
     batch_->samples = 0;
     batch_->points = 0;
+    batch_->rows_are_samples = false;
     batch_->invalid = batch_->shadow_rays = 0;
     scratch_->clear();
     StageTicks stage_ticks{};

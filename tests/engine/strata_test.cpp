@@ -189,6 +189,28 @@ TEST(Strata, DoNotDependOnWhatTheirRoomHeldBefore)
     expect_same_bits(run_floor(fresh, floor, 5, range), run_floor(used, floor, 5, range));
 }
 
+/// Batches are lent to one strategy after the other.
+TEST(Strata, LeaveTheirRoomToOthersAsTheyWouldFindItNew)
+{
+    Floor floor;
+    floor.scene.materials[0] = grey_floor();
+    Workspace<float> fresh, used;
+    run_floor(used, floor, 99, {.chunk = 1, .samples_per_observation = 100});
+    const auto run_product = [&](Workspace<float>& workspace) {
+        const LitScene lit(floor.scene, nullptr, called_for(floor.scene));
+        const GBuffer probes =
+            probe_points(floor.scene, lit.lights(), nullptr, any_executor(SerialExecutor{}));
+        const ReadyStrategy<float> ready(lit, parse_strategy("product/light"), kernels<float>(), 5);
+        const Tile tile{0, static_cast<std::uint32_t>(probes.points.size()), 0,
+                        probes.points.front().x};
+        std::vector<PointResult> results(probes.points.size());
+        workspace.run(ready.job(tile, probes.points), ready.pipeline(0), {.chunk = 7}, results, {},
+                      {});
+        return results;
+    };
+    expect_same_bits(run_product(fresh), run_product(used));
+}
+
 TEST(Strata, HaveObservationsThatGoByTheirNumberAlone)
 {
     const Floor floor;
