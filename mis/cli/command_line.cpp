@@ -135,11 +135,16 @@ void add_time(CLI::App& command, StopOptions& options, const std::string& otherw
         ->type_name("TIME");
 }
 
+void add_error(CLI::App& command, StopOptions& options, const std::string& what)
+{
+    command.add_option("--error", options.error, what)->check(number_fault)->type_name("E");
+}
+
 void add_stop_options(CLI::App& command, StopOptions& options, const std::string& error)
 {
     add_samples(command, options, "samples per shading point");
     add_time(command, options);
-    command.add_option("--error", options.error, error)->check(number_fault)->type_name("E");
+    add_error(command, options, error);
 }
 
 /// --policy, --heuristic, --technique, --model, --strategy.
@@ -164,13 +169,19 @@ void add_compare(CLI::App& app, CompareOptions& options)
         ->required()
         ->type_name("SCENE");
     add_strategy_lists(c, options);
-    add_stop_options(c, options.stop, "until every ranked variance is known to ± E (0.05: 5 %)");
-    c.add_option("--at", options.at,
-                 "samples per point that the efficiency is for; with --sampler sobol, those of one "
-                 "scrambling, and the variance too is for them")
-        ->check(number_fault)
-        ->type_name("N")
-        ->capture_default_str();
+    add_samples(c, options.stop,
+                "samples per shading point of every strategy; and so many directions that all of "
+                "them share, which the variances come from");
+    add_time(c, options.stop);
+    add_error(c, options.stop, "until every ranked variance is known to ± E (0.05: 5 %)");
+    c.add_option_function<std::string>(
+         "--at", [&options](const std::string& text) { options.at = numbers_in(text); },
+         "samples per point that the efficiency is for; with --sampler sobol, those of one "
+         "scrambling, and the variance too is for them. A list 16,64,256: the first ranks, and the "
+         "figures are given at each")
+        ->check(number_list_fault)
+        ->type_name("LIST")
+        ->default_str("16");
     c.add_option(
          "--fail-on-regression", options.fail_on_regression,
          "of two reports: exit code 1 where a variance or a cost surely grew by more than P "

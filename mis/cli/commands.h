@@ -23,8 +23,8 @@ int run_render(const RenderOptions& options);
 struct CompareOptions {
     std::vector<std::string> scenes;
     std::optional<std::string> policies, heuristics, techniques, models,
-        strategies;  ///< lists; the default where not given
-    double at = 16;
+        strategies;                            ///< lists; the default where not given
+    std::vector<double> at{16};                ///< samples per point: the first ranks
     std::optional<double> fail_on_regression;  ///< percent; of two reports
     std::vector<std::string>
         given_for_scenes;  ///< options on the line that two reports do not take

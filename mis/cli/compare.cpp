@@ -13,6 +13,7 @@
 #include "mis/io/report_peek.h"
 #include "mis/io/report_text.h"
 #include "mis/stats/overall.h"
+#include "mis/study/at_counts.h"
 #include "mis/study/maps.h"
 #include "mis/study/study.h"
 #include "mis/words/numbers.h"
@@ -34,11 +35,11 @@ namespace {
 
 /// Ends the run at a sample that is NaN or infinite, and says how to see it again.
 [[noreturn]] void trap(const CompareOptions& options, const Scene& scene, const Strategy& strategy,
-                       const SampleName& sample)
+                       const SampleName& sample, double at)
 {
     std::string command =
         replay_words(scene.file, strategy, sample) + fmt::format(" --seed {}", options.run.seed);
-    if (options.run.is_sobol()) command += fmt::format(" --sampler sobol --at {}", options.at);
+    if (options.run.is_sobol()) command += fmt::format(" --sampler sobol --at {}", at);
     if (scene.camera)
         command += fmt::format(" --resolution {}x{}", scene.camera->resolution[0],
                                scene.camera->resolution[1]);
@@ -51,18 +52,17 @@ StudyOptions study_options(const CompareOptions& options, const Scene& scene, Pr
 {
     StudyOptions study;
     study.seed = options.run.seed;
-    study.at = options.at;
+    study.at = options.at.front();
     study.own_samples = options.own_samples;
     study.names_sampler = options.run.names_sampler;
-    if (options.run.is_sobol())
-        study.samples_per_scrambling = static_cast<std::uint64_t>(options.at);
+    if (options.run.is_sobol()) study.samples_per_scrambling = static_cast<std::uint64_t>(study.at);
     if (options.stop.spp) study.spp = static_cast<std::uint64_t>(*options.stop.spp);
     study.seconds = options.stop.seconds;
     study.error = options.stop.error;
     study.stop = &interrupt_flag();
     if (options.trap)
-        study.on_invalid = [&](const Strategy& strategy, const SampleName& sample) {
-            trap(options, scene, strategy, sample);
+        study.on_invalid = [&](const Strategy& strategy, const SampleName& sample, double at) {
+            trap(options, scene, strategy, sample, at);
         };
     study.progress = [&progress](double done, const SceneReport& so_far) {
         if (!progress.is_due()) return;
@@ -78,28 +78,41 @@ StudyOptions study_options(const CompareOptions& options, const Scene& scene, Pr
 }
 
 /// A variance is measured over scramblings: at least two replicates of two.
-void check_scramblings(const CompareOptions& options)
+void check_scramblings(const CompareOptions& options, double count)
 {
     constexpr double most = 65536;
-    if (!(options.at >= 1 && options.at <= most) || options.at != std::floor(options.at))
+    if (!(count >= 1 && count <= most) || count != std::floor(count))
         throw UsageError(
             fmt::format("--at: found {}; with --sampler sobol it is the samples of one scrambling, "
                         "a whole number from 1 to {}",
-                        options.at, most));
-    const auto at = static_cast<std::int64_t>(options.at);
+                        count, most));
+    const auto at = static_cast<std::int64_t>(count);
     if (options.stop.spp && (*options.stop.spp < 4 * at || *options.stop.spp % at != 0))
         throw UsageError(fmt::format(
             "--spp: found {}; with --sampler sobol it is a multiple of --at ({}), and at least {}",
             *options.stop.spp, at, 4 * at));
 }
 
+void check_counts(const CompareOptions& options)
+{
+    constexpr std::size_t most_counts = 16;
+    if (options.at.size() > most_counts)
+        throw UsageError(fmt::format("--at: found {} numbers; at most {} are allowed",
+                                     options.at.size(), most_counts));
+    for (auto at = options.at.begin(); at != options.at.end(); ++at) {
+        if (!(*at > 0 && *at <= 1e12))
+            throw UsageError(
+                fmt::format("--at: found {}; more than 0 and at most 1e12 samples per point", *at));
+        if (std::find(options.at.begin(), at, *at) != at)
+            throw UsageError(fmt::format("--at: found {} twice; each number stands once", *at));
+        if (options.run.is_sobol()) check_scramblings(options, *at);
+    }
+}
+
 void check_options(const CompareOptions& options)
 {
     check(options.stop, 4);
-    if (!(options.at > 0 && options.at <= 1e12))
-        throw UsageError(fmt::format(
-            "--at: found {}; more than 0 and at most 1e12 samples per point", options.at));
-    if (options.run.is_sobol()) check_scramblings(options);
+    check_counts(options);
     if (options.force && options.out.empty())
         throw UsageError("--force: found without --out DIR, the folder that it is for");
     check(options.output);
@@ -150,8 +163,8 @@ void add_scene(const std::string& file, const CompareOptions& options,
     if (options.stop.spp)
         ready.lit.expect_samples(static_cast<double>(*options.stop.spp) *
                                  static_cast<double>(strategies.size()));
-    Study study = run_study(ready.lit, strategies, study_options(options, ready.scene, progress),
-                            ready.executor);
+    Study study = run_study_at(ready.lit, strategies, study_options(options, ready.scene, progress),
+                               std::span(options.at).subspan(1), ready.executor);
     progress.clear();
     if (study.points->figure_points == 0) throw UsageError(no_points_message(ready.scene));
     const std::size_t turned = study.points->shading.counts.turned_normals;
@@ -160,9 +173,10 @@ void add_scene(const std::string& file, const CompareOptions& options,
     study.report.setup = ready.setup;
     report.scenes.push_back(study.report);
     if (!options.out.empty())
-        maps.push_back(ready.scene.camera
-                           ? std::optional(maps_of(ready.lit, study, options.at, ready.executor))
-                           : std::nullopt);
+        maps.push_back(
+            ready.scene.camera
+                ? std::optional(maps_of(ready.lit, study, options.at.front(), ready.executor))
+                : std::nullopt);
     report.partial = report.partial || study.report.partial;
     if (options.output.json == "-" || options.output.csv == "-") return;
     fmt::print("{}{}", report.scenes.size() > 1 ? "\n" : "",
@@ -185,11 +199,11 @@ int run_compare(const CompareOptions& options)
                                           options.models, options.strategies});
     constexpr double most_draws = 65536;
     request.strata = {
-        .draws = static_cast<int>(std::clamp(std::round(options.at), 1.0, most_draws)),
+        .draws = static_cast<int>(std::clamp(std::round(options.at.front()), 1.0, most_draws)),
         .spp = options.stop.spp};
     if (!options.out.empty()) check_report_folder(options.out, options.force);
     Report report{run_head(options.run)};
-    report.at = options.at;
+    report.at = options.at.front();
     Reasons told;
     const bool shows_table = options.output.json != "-" && options.output.csv != "-";
     std::vector<std::optional<Maps>> maps;

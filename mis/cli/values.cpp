@@ -31,6 +31,17 @@ template <class Number> std::optional<Number> whole(std::string_view text)
 constexpr std::array<std::pair<std::string_view, double>, 6> units{
     {{"", 1}, {"ms", 1e-3}, {"s", 1}, {"m", 60}, {"min", 60}, {"h", 3600}}};
 
+/// What stands between commas; as many as there are commas, and one.
+std::vector<std::string> words_of_list(const std::string& text)
+{
+    std::vector<std::string> words;
+    std::size_t begin = 0;
+    for (std::size_t comma; (comma = text.find(',', begin)) != text.npos; begin = comma + 1)
+        words.push_back(text.substr(begin, comma - begin));
+    words.push_back(text.substr(begin));
+    return words;
+}
+
 }  // namespace
 
 Fault whole_number_fault(std::uint64_t least, std::uint64_t most, const std::string& what)
@@ -55,6 +66,21 @@ std::string number_fault(const std::string& text)
 {
     if (number_in(text)) return "";
     return fmt::format("found \"{}\"; a number is needed", text);
+}
+
+std::vector<double> numbers_in(const std::string& text)
+{
+    std::vector<double> numbers;
+    for (const std::string& word : words_of_list(text))
+        numbers.push_back(number_in(word).value_or(0));  // number_list_fault() was asked
+    return numbers;
+}
+
+std::string number_list_fault(const std::string& text)
+{
+    for (const std::string& word : words_of_list(text))
+        if (const std::string fault = number_fault(word); !fault.empty()) return fault;
+    return "";
 }
 
 Fault empty_fault(const std::string& allowed)

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mis::cli {
 
@@ -24,6 +25,10 @@ std::optional<double> number_in(const std::string& text);
 
 /// Of a number; nan and inf are some, and are refused where their option is read.
 std::string number_fault(const std::string& text);
+
+/// The numbers of a list "16,64,256"; and of its first word that is none.
+std::vector<double> numbers_in(const std::string& text);
+std::string number_list_fault(const std::string& text);
 
 /// Of an empty word, as of a variable that was not set.
 Fault empty_fault(const std::string& allowed);

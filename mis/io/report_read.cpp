@@ -198,9 +198,9 @@ public:
     template <class T, class... Context>
     void list(const Field& f, std::vector<T>& all, const Context&... context)
     {
-        const JsonNode found = node_[f.key];
-        for (std::size_t i = 0; i < found.size(); ++i)
-            all.push_back(described_by<T>(found.element(i), context...));
+        const auto found = find(f);
+        for (std::size_t i = 0; found && i < found->size(); ++i)
+            all.push_back(described_by<T>(found->element(i), context...));
     }
     void unique(const Field& f, std::vector<StrategyReport>& all)
     {

@@ -157,6 +157,48 @@ std::string probes(const SceneReport& scene, const TextLook& look)
                           : "");
 }
 
+/// The variance per draw where a point gets more samples or fewer, if several numbers were asked
+/// for.
+std::string variances_at_counts(const SceneReport& scene, const TextLook& look)
+{
+    constexpr std::size_t most_columns = 5;  // the others are in --json
+    std::vector<std::string> head{"", " rel. variance per"}, below{"", " draw at n ="};
+    const auto has_many = [](const StrategyReport* s) { return s->at_counts.size() > 1; };
+    const auto varies = [](const StrategyReport* s) {
+        return std::ranges::any_of(s->at_counts, [&](const CountFigures& c) {
+            return c.status != Status::ranked || c.variance.value != s->variance.value;
+        });
+    };
+    const std::vector<const StrategyReport*> order = in_order(scene);
+    const auto first = std::ranges::find_if(order, has_many);
+    if (first == order.end()) return "";
+    if (std::ranges::none_of(order, varies))
+        return "\n" + paragraph(
+                          "Of independent samples the variance per draw is the same at every "
+                          "--at; --json has the efficiency and the error at each.",
+                          look);
+    const std::vector<CountFigures>& counts = (*first)->at_counts;
+    const std::size_t shown = std::min(counts.size(), most_columns);
+    for (std::size_t k = 0; k < shown; ++k) head.push_back(fmt::format("{:.6g}", counts[k].n));
+    for (std::size_t k = 0; k < shown; ++k) below.push_back("±");
+    TextTable table({head, below});
+    for (const StrategyReport* s : order) {
+        if (!has_many(s)) continue;
+        std::vector<std::string> row{"", " " + name_of(s->strategy)};
+        for (std::size_t k = 0; k < shown && k < s->at_counts.size(); ++k) {
+            const CountFigures& c = s->at_counts[k];
+            row.push_back(c.status != Status::ranked ? words_of(c.status)
+                          : s->exact                 ? "exact"
+                                                     : short_interval(c.relative_variance));
+        }
+        table.add(row);
+    }
+    return "\n" + table.text(look) +
+           (counts.size() > shown
+                ? fmt::format(" ({} in --json)\n", many(counts.size() - shown, "more number"))
+                : "");
+}
+
 /// "-" where every scene has exact ones and this is none of them.
 std::string ratio(const Interval& x) { return std::isfinite(x.value) ? short_interval(x) : "-"; }
 
@@ -205,8 +247,8 @@ std::string scene_text(const SceneReport& scene, const Report& report, const Tex
 {
     const SceneWords words = words_of(scene, report.threads, report.margin);
     return heading(scene, report, look) + effects(scene, look) + "\n" + table(scene, look) +
-           legend(scene, look) + probes(scene, look) + "\n" + details(scene, words, look) +
-           answer(words.answer, look);
+           legend(scene, look) + variances_at_counts(scene, look) + probes(scene, look) + "\n" +
+           details(scene, words, look) + answer(words.answer, look);
 }
 
 std::string ranking_text(const SceneReport& scene, const TextLook& look)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mis/report/count_figures.h"
 #include "mis/report/field.h"
 #include "mis/report/interval.h"
 #include "mis/report/reason.h"
@@ -16,14 +17,6 @@
 #include <vector>
 
 namespace mis {
-
-/// design §1, Figures: a strategy is in one state, tested in this order.
-enum class Status { not_run, not_resolved, biased, ranked };
-
-constexpr std::array<const char*, 4> names_of(Status)
-{
-    return {"not_run", "not_resolved", "biased", "ranked"};
-}
 
 /// What a variance is measured by: a strategy's own samples, or directions that all strategies
 /// share (docs/theory.md §25).
@@ -107,6 +100,8 @@ struct StrategyReport {
     std::uint64_t invalid_samples = 0;
     std::optional<SampleName> first_invalid;  ///< where there are any, and it is known
     std::vector<PointFigures> probes;
+    /// Where a point gets n samples, for every n asked for; empty unless ranked.
+    std::vector<CountFigures> at_counts;
 };
 
 template <class Visitor, Either<StrategyReport> S> void describe(Visitor& v, S& s)
@@ -147,6 +142,7 @@ template <class Visitor, Either<StrategyReport> S> void describe(Visitor& v, S& 
     v.count(Field("invalid_samples"), s.invalid_samples);
     v.maybe(Field("first_invalid").outside_table().later(), s.first_invalid);
     v.list(Field("probes").outside_table(), s.probes);
+    v.list(Field("at_counts").outside_table().later(), s.at_counts);
 }
 
 /// How two strategies stand: a's figure over b's. The verdicts of one kind hold for all pairs

@@ -1,6 +1,7 @@
 #include "mis/study/set_up.h"
 
 #include "mis/strategy/names.h"
+#include "mis/study/count_dependence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,6 +30,9 @@ constexpr double round_share = 0.02, fewest_apart = 4, most_apart = 8;
 constexpr double dear_share = 0.01;
 constexpr int parts_of_dear = 4;
 
+/// Of strategies whose observations are many samples: so few where there is no time for more.
+constexpr int fewest_replicates = 4;
+
 constexpr SharedCounts fewest_counts{.light = 1, .lobe = 1, .cosine = 1};
 
 class Maker {
@@ -54,7 +58,8 @@ public:
         }
         const bool may_share = options_.shares_samples && !options_.numbers.is_sobol() &&
                                least_shared_seconds() < shared_share * cpu_;
-        look_at_costs(may_share ? first_samples_apart : first_samples * per_observation());
+        if (may_share) look_at_costs(first_samples_apart);
+        else look_at_costs_of_replicates();
         try {
             for (std::size_t s = 0; s < strategies_.size(); ++s)
                 if (made_.costs[s].is_affordable) start_run(s);
@@ -77,11 +82,32 @@ private:
         return until_then;
     }
 
-    int per_observation() const
+    int per_observation() const { return samples_per_scrambling(options_.numbers); }
+
+    /// Of as many replicates as all strategies have time for: where an observation is many samples,
+    /// a few replicates of all tell more than many of a few.
+    void look_at_costs_of_replicates()
     {
-        return options_.numbers.is_sobol()
-                   ? static_cast<int>(options_.numbers.samples_per_scrambling)
-                   : 1;
+        if (per_observation() == 1 || time_.goal().spp)
+            return look_at_costs(first_samples * per_observation());
+        made_.replicates = fewest_replicates;
+        look_at_costs(first_samples * per_observation() * fewest_replicates / most_replicates);
+        while (made_.replicates < most_replicates && are_all_affordable() &&
+               2 * sum_of_costs() <= first_share * cpu_)
+            change_replicates(2 * made_.replicates);
+    }
+
+    bool are_all_affordable() const
+    {
+        return std::ranges::all_of(made_.costs, &CostEstimate::is_affordable);
+    }
+
+    void change_replicates(int replicates)
+    {
+        const double factor = static_cast<double>(replicates) / made_.replicates;
+        for (CostEstimate& cost : made_.costs) cost.seconds *= factor;
+        made_.first_samples = made_.first_samples * replicates / made_.replicates;
+        made_.replicates = replicates;
     }
 
     void look_at_costs(int samples)
@@ -228,6 +254,9 @@ private:
     void leave_out_late()
     {
         const double left = time_.left() * options_.threads;
+        while (per_observation() > 1 && made_.replicates > fewest_replicates &&
+               sum_of_costs() > left)
+            change_replicates(made_.replicates / 2);
         for (CostEstimate& cost : made_.costs) cost.is_late = cost.is_affordable;
         keep_affordable(made_.costs, left);
         for (CostEstimate& cost : made_.costs) cost.is_late = cost.is_late && !cost.is_affordable;

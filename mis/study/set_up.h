@@ -23,6 +23,7 @@ struct SetUp {
     std::unique_ptr<SharedTurns> shared;             ///< null where own samples tell all
     std::vector<Strategy> sharing;                   ///< in the order of `shared`
     std::optional<StudyAudit> audit;                 ///< of own samples
+    int replicates = most_replicates;                ///< SamplePlan::replicates, without counts
     int parts = 1;                                   ///< SamplePlan::parts
 };
 

@@ -2,25 +2,16 @@
 
 #include "mis/math/limits.h"
 #include "mis/stats/pool.h"
+#include "mis/study/count_dependence.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace mis {
 
-namespace {
-
-int samples_of_observation(const Strategy& strategy, const NumberSource& numbers)
-{
-    if (strategy.model == Model::strata) return samples_together(strategy);
-    return numbers.is_sobol() ? static_cast<int>(numbers.samples_per_scrambling) : 1;
-}
-
-}  // namespace
-
 StrategyRun::StrategyRun(const LitScene& scene, const StudyPoints& points, const Strategy& strategy,
                          const NumberSource& numbers, const StopToken& stop)
-    : points_(&points), samples_per_observation_(samples_of_observation(strategy, numbers)),
+    : points_(&points), samples_per_observation_(mis::samples_per_observation(strategy, numbers)),
       ready_(scene, strategy, kernels<float>(), numbers, {}, stop),
       results_(points.shading.points.size()), tiles_(points.shading.tiles.size())
 {

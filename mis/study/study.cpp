@@ -2,6 +2,7 @@
 
 #include "mis/engine/exact.h"
 #include "mis/stats/rank.h"
+#include "mis/study/count_dependence.h"
 #include "mis/study/measured.h"
 #include "mis/study/reference.h"
 #include "mis/study/savings.h"
@@ -110,16 +111,11 @@ private:
         return numbers;
     }
 
-    int samples_per_observation() const
-    {
-        return numbers().is_sobol() ? static_cast<int>(options_.samples_per_scrambling) : 1;
-    }
-
     void end_turn(std::size_t s, double of_round) const
     {
         if (options_.on_invalid && set_up_.runs[s])
             if (const auto found = set_up_.runs[s]->first_invalid())
-                options_.on_invalid(strategies_[s], *found);
+                options_.on_invalid(strategies_[s], *found, options_.at);
         if (!options_.progress) return;
         const double of_plan =
             (rounds_->count() - 1 + of_round) / static_cast<double>(plan_.chunks.size());
@@ -139,7 +135,7 @@ private:
     void run_spp(int together)
     {
         const RoundOptions how = only_those_of(together);
-        const int each = together > 1 ? together : samples_per_observation();
+        const int each = together > 1 ? together : samples_per_scrambling(numbers());
         plan_ = plan_for(*options_.spp / static_cast<std::uint64_t>(each));
         double samples = 0, all = 0, last_look = 0;
         for (const int chunk : plan_.chunks) all += chunk;
@@ -205,6 +201,7 @@ private:
 
     void run_time()
     {
+        plan_.replicates = set_up_.replicates;
         plan_.parts = set_up_.parts;
         double samples = 0, last_look = 0, round_seconds = 0;  // of one sample per replicate
         while (!is_stopped() && does_any_run()) {

@@ -28,9 +28,9 @@ struct StudyOptions {
     std::optional<double> seconds;  ///< so much wall time
     std::optional<double> error;    ///< until every ranked variance is known to ± this share
     double default_seconds = 30;    ///< without any of these: until settled, or this
-    /// Told of the first NaN or infinite sample of a strategy, after each of its rounds; it may
-    /// throw.
-    std::function<void(const Strategy& strategy, const SampleName& sample)> on_invalid;
+    /// Told of the first NaN or infinite sample of a strategy, after each of its rounds, and of the
+    /// `at` of that study; it may throw.
+    std::function<void(const Strategy& strategy, const SampleName& sample, double at)> on_invalid;
     const std::atomic<bool>* stop = nullptr;  ///< set from outside: end with the results so far
     std::function<void(double done, const SceneReport& so_far)> progress;
 

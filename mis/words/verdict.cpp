@@ -1,6 +1,7 @@
 #include "mis/words/verdict.h"
 
 #include "mis/math/limits.h"
+#include "mis/stats/at_counts.h"
 #include "mis/stats/decision.h"
 #include "mis/words/comparisons.h"
 #include "mis/words/numbers.h"
@@ -67,6 +68,50 @@ std::string in_time(const SceneView& view, int i, int threads)
 {
     return "it reaches 1 % error in " + duration(view.seconds(i)) + " on " +
            std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+std::vector<int> not_run(const SceneView& view)
+{
+    std::vector<int> strategies;
+    for (int i = 0; i < view.count(); ++i)
+        if (view.of(i).status == Status::not_run) strategies.push_back(i);
+    return strategies;
+}
+
+/// CPU seconds that the first samples of those take; infinite where it is not known.
+double seconds_of(const SceneView& view, const std::vector<int>& strategies)
+{
+    double sum = 0;
+    for (const int i : strategies) {
+        const double seconds = view.of(i).estimated_seconds;
+        sum += seconds > 0 ? seconds : infinity;
+    }
+    return sum;
+}
+
+/// Where as many were not run as were ranked, what that takes.
+void say_not_run(Sentences& sentences, const SceneView& view, std::size_t ranked)
+{
+    const std::vector<int> strategies = not_run(view);
+    if (strategies.empty() || strategies.size() < ranked) return;
+    const double seconds = seconds_of(view, strategies);
+    const bool is_one = strategies.size() == 1;
+    sentences.say((is_one ? view.name(strategies[0]) + " was"
+                          : many(strategies.size(), "strategy") + " were") +
+                  " not run" + (ranked > 0 ? ", and may be better" : "") +
+                  (std::isfinite(seconds)
+                       ? std::string("; ") + (is_one ? "its" : "their") +
+                             " first samples take about " + duration(seconds) + " of CPU time"
+                       : "") +
+                  (view.scene().partial ? "" : " (more --time, or a lower --resolution, tells)"));
+}
+
+/// One strategy is ranked, others were not run: it is best of nothing.
+void say_ranked_alone(Sentences& sentences, const SceneView& view, int alone, int threads)
+{
+    sentences.say("Not decided which to use: there was time to rank " + view.name(alone) +
+                  " alone" + (view.is_timed(alone) ? "; " + in_time(view, alone, threads) : ""));
+    say_not_run(sentences, view, 1);
 }
 
 void say_use(Sentences& sentences, const SceneView& view, int leader, int threads)
@@ -219,21 +264,38 @@ void say_lack_of_audit(Sentences& sentences, bool had_no_time)
         (had_no_time ? "more time tells" : "--sampler independent tells"));
 }
 
+/// At further numbers of samples per point, the best where that is surely another.
+void say_best_at_counts(Sentences& sentences, const SceneView& view, int leader)
+{
+    const std::vector<CountFigures>& counts = view.of(leader).at_counts;
+    for (std::size_t k = 1; k < counts.size(); ++k)
+        if (const auto found = best_at_count(view.scene(), leader, k))
+            sentences.say("At " + counted(counts[k].n, "sample") + " " + view.name(found->best) +
+                          " is best: it reaches the same error " + with_error(found->sooner) +
+                          " times sooner than " + view.name(leader));
+}
+
 void say_verdict(Sentences& sentences, const SceneView& view, const SameStrategies& same,
                  int threads)
 {
     std::vector<int> order = view.in_order();
-    if (order.empty())
-        return sentences.say("No strategy could be ranked on this scene" + remedy(view.scene()));
+    if (order.empty()) {
+        sentences.say("No strategy could be ranked on this scene" + remedy(view.scene()));
+        return say_not_run(sentences, view, 0);
+    }
     if (is_black(view, order))
         return sentences.say(
             "No light reaches any point that was measured: all is black, by any strategy");
     const int leader = view.leader();
     std::erase(order, leader);
     order.insert(order.begin(), leader);
+    if (order.size() == 1 && !not_run(view).empty())
+        return say_ranked_alone(sentences, view, leader, threads);
     say_use(sentences, view, leader, threads);
     say_how_sure(sentences, view, same, order);
+    say_not_run(sentences, view, order.size());
     say_gains(sentences, view, same, order);
+    say_best_at_counts(sentences, view, leader);
     say_use_of_one_light(sentences, view, leader, threads);
     if (view.scene().lacks_audit) say_lack_of_audit(sentences, view.scene().had_no_time_for_audit);
     say_most_efficient(sentences, view, leader);

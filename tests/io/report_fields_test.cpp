@@ -26,6 +26,7 @@ const char* definition_of(const StrategyReport&) { return "strategy"; }
 const char* definition_of(const AuditedGrowth&) { return "growth"; }
 const char* definition_of(const SampleName&) { return "sample"; }
 const char* definition_of(const PointFigures&) { return "probe"; }
+const char* definition_of(const CountFigures&) { return "count"; }
 const char* definition_of(const PairReport&) { return "pair"; }
 const char* definition_of(const OverallReport&) { return "overall"; }
 
@@ -210,10 +211,10 @@ TEST(ReportFields, AreAllMembersOfAStrategyReport)
                  tied_with, may_be_best, behind, samples, mean, mean_se, from, variance,
                  relative_variance, timed_rounds, per_point, per_sample, stages, rays, efficiency,
                  to_1_percent, estimated, least_bias, p_value, rare_share, factor, growth,
-                 effective, invalid, first_invalid, probes] = s;
+                 effective, invalid, first_invalid, probes, at_counts] = s;
     EXPECT_EQ(&strategy, &s.strategy);
-    EXPECT_EQ(&probes, &s.probes);
-    constexpr std::size_t members = 36, parts_of_strategy = 6;
+    EXPECT_EQ(&at_counts, &s.at_counts);
+    constexpr std::size_t members = 37, parts_of_strategy = 6;
     OrderedJson definitions;
     SchemaWriter writer(definitions);
     describe(writer, s);
@@ -285,6 +286,7 @@ TEST(ReportFields, AreExplainedKeyByKey)
     expect_explained("A scene", of["scene"]);
     expect_explained("A strategy", of["strategy"]);
     expect_explained("A pair", of["pair"]);
+    expect_explained("A count", of["count"]);
     expect_explained("Overall", of["overall"]);
     expect_explained_in("A scene", "effects", of["effect"]);
     expect_explained_in("A strategy", "probes", of["probe"]);

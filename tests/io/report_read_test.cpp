@@ -182,7 +182,7 @@ TEST(ReportRead, TakesOlderReportsAndClaimsNothingForThem)
             scene.erase(key);
         for (Json& s : scene["strategies"])
             for (const char* key : {"resolving_factor", "least_growth", "first_invalid",
-                                    "timed_rounds", "may_be_best", "behind_at_most"})
+                                    "timed_rounds", "may_be_best", "behind_at_most", "at_counts"})
                 s.erase(key);
     }
     const Report read = parse_report(json.dump(), "x");

@@ -1,6 +1,9 @@
 #include "mis/io/report_text.h"
 
+#include "mis/io/report_json.h"
+#include "mis/io/report_read.h"
 #include "mis/io/text_layout.h"
+#include "mis/stats/at_counts.h"
 #include "tests/io/sample_report.h"
 
 #include <gtest/gtest.h>
@@ -160,6 +163,45 @@ TEST(ReportText, ShowsProbesApartAndAllScenesTogether)
 TEST(ReportText, OfNothingIsASentence)
 {
     EXPECT_NE(scene_text({}, {}).find("No strategy could be ranked"), std::string::npos);
+}
+
+/// The variance per draw at every count, each as it came out, in 80 columns.
+TEST(ReportText, HasATableOfSeveralCounts)
+{
+    Report report = sample_report();
+    const auto text = [&] { return scene_text(report.scenes[0], report, TextLook{}); };
+    EXPECT_EQ(text().find("draw at n ="), std::string::npos);
+    for (StrategyReport& s : report.scenes[0].strategies)
+        if (s.status == Status::ranked)
+            for (const double n : {16, 64, 256}) s.at_counts.push_back(at_count(s, 16, n));
+    EXPECT_EQ(text().find("draw at n ="), std::string::npos);  // all the same
+    EXPECT_NE(text().find("Of independent samples the variance per draw is the same"),
+              std::string::npos);
+    StrategyReport& s = report.scenes[0].strategies[0];
+    s.at_counts[1].variance.value = 0.5;
+    s.at_counts[1].relative_variance = {0.25, 0.24, 0.26};
+    s.at_counts[2].status = Status::not_resolved;
+    const std::string table = text().substr(text().find("rel. variance per"));
+    EXPECT_NE(table.find(" 256\n"), std::string::npos) << table;
+    EXPECT_NE(table.find("0.25±0.01"), std::string::npos) << table;
+    EXPECT_NE(table.find("not resolved"), std::string::npos) << table;
+    EXPECT_NE(table.find("exact"), std::string::npos) << table;
+    for (const std::string& line : lines_of(text())) EXPECT_LE(width_of(line), 80U) << line;
+}
+
+/// What stands in files comes back.
+TEST(ReportText, OfCountsIsTheSameOnceRead)
+{
+    Report report = sample_report();
+    StrategyReport& s = report.scenes[0].strategies[0];
+    s.at_counts = {at_count(s, 16, 16), at_count(s, 16, 64)};
+    s.at_counts[1].status = Status::not_run;
+    s.at_counts[1].reason = reason::NotReady{};
+    const std::string json = report_json(report);
+    const Report read = parse_report(json, "x");
+    ASSERT_EQ(read.scenes[0].strategies[0].at_counts.size(), 2U);
+    EXPECT_EQ(read.scenes[0].strategies[0].at_counts[1].n, 64);
+    EXPECT_EQ(report_json(read), json);
 }
 
 }  // namespace

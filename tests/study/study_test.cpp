@@ -171,7 +171,7 @@ TEST(Study, TellsOfTheFirstSampleThatIsNoNumber)
     struct Told {
         std::string name;
     };
-    const auto tell = [](const Strategy& strategy, const SampleName&) {
+    const auto tell = [](const Strategy& strategy, const SampleName&, double) {
         throw Told{name_of(strategy)};
     };
     try {

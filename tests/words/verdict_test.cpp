@@ -411,5 +411,49 @@ TEST(Sentences, HoldNoNumberThatIsNone)
     }
 }
 
+/// Best of nothing: one strategy ran, and others may be better.
+TEST(Sentences, DoNotCrownAStrategyThatRanAlone)
+{
+    StrategyMeasurements dear;
+    dear.strategy = named("solid-angle");
+    dear.was_run = false;
+    dear.not_run_reason = reason::PastBudget{2048, 0.6};
+    dear.estimated_seconds = 40;
+    StrategyMeasurements other = dear;
+    other.strategy = named("power");
+    const std::string text =
+        all_of(scene_of({simulate("uniform", uniform_samples(0.3)), dear, other}));
+    EXPECT_EQ(text.find("Use "), text.npos) << text;
+    EXPECT_EQ(text.find("sure to"), text.npos) << text;
+    expect_said(text, "Not decided which to use: there was time to rank uniform/power alone; ");
+    expect_said(text,
+                "2 strategies were not run, and may be better; their first samples take about "
+                "80 s of CPU time");
+    expect_said(
+        all_of(scene_of({simulate("uniform", uniform_samples(0.3)), dear})),
+        "solid-angle/power was not run, and may be better; its first samples take about 40 s");
+}
+
+TEST(Sentences, NameAnotherThatIsBestAtAFurtherCount)
+{
+    SceneReport scene = scene_of({simulate("uniform", uniform_samples(0.3)),
+                                  simulate("solid-angle", uniform_samples(0.02))});
+    const Interval second{1, 0.99, 1.01};
+    const auto counts = [&](double first, double later) {
+        std::vector<CountFigures> figures;
+        for (const auto& [n, v] : {std::pair(16.0, first), {256.0, later}})
+            figures.push_back({.n = n,
+                               .status = Status::ranked,
+                               .relative_variance = {v, 0.95 * v, 1.05 * v},
+                               .seconds_per_sample = second});
+        return figures;
+    };
+    scene.strategies[0].at_counts = counts(0.3, 0.01);
+    scene.strategies[1].at_counts = counts(0.02, 0.02);
+    expect_said(all_of(scene), "At 256 samples uniform/power is best: it reaches the same error 2");
+    scene.strategies[0].at_counts = counts(0.01, 0.019);
+    EXPECT_EQ(all_of(scene).find("is best"), std::string::npos) << all_of(scene);
+}
+
 }  // namespace
 }  // namespace mis

@@ -3,7 +3,7 @@
 #include "mis/math/limits.h"
 #include "mis/run/tbb.h"
 #include "mis/scene/nearest_name.h"
-#include "mis/study/study.h"
+#include "mis/study/at_counts.h"
 
 #include <fmt/format.h>
 
@@ -218,7 +218,7 @@ Report compare(const ReadyScene& ready, const std::vector<std::string>& strategi
     if (options.spp) study.spp = static_cast<std::uint64_t>(*options.spp);
     study.seconds = options.seconds, study.error = options.error;
     study.stop = run.stop;
-    const Study found = run_study(ready.lit, list, study, executor);
+    const Study found = run_study_at(ready.lit, list, study, {}, executor);
     run.token().check();
     if (found.points->figure_points == 0)
         throw ArgumentError(ready.scene.file + ": found nothing to light: no surface is in view");

@@ -117,7 +117,7 @@ function show_scene(scene) {
   draw_scene_tabs();
   draw_banner();
   if (all) return draw_over_all();
-  for (const draw of [draw_answer, draw_ranking, draw_probes, draw_legend, draw_plots, draw_run, draw_effects, draw_checks]) draw();
+  for (const draw of [draw_answer, draw_ranking, draw_at_counts, draw_probes, draw_legend, draw_plots, draw_run, draw_effects, draw_checks]) draw();
   $("viewer").hidden = maps_now() === null;
   hero = draw_hero();
   if (pictures_are_here) show_pictures();

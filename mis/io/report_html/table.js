@@ -60,6 +60,22 @@ function ranking_row(scene, s, best) {
   return row;
 }
 
+/// Figures where a point gets more samples or fewer, if several numbers were asked for.
+function draw_at_counts() {
+  const scene = scene_now(), of = scene.strategies.filter((s) => (s.at_counts ?? []).length > 1);
+  const section = $("at-counts");
+  section.hidden = of.length === 0;
+  if (section.hidden) return;
+  const order = of.slice().sort((a, b) => a.rank - b.rank), counts = order[0].at_counts.map((c) => c.n);
+  const shown = (s, c) => c.status !== "ranked"
+    ? make("td", { className: "none", title: c.reason ?? "" }, status_words[c.status])
+    : make("td", { title: `relative error ${percent(c.relative_error.value)}, ${number(1e9 * c.seconds_per_sample.value)} ns/sample` },
+      s.exact ? "exact" : figure_of(c.relative_variance));
+  $("at-counts-table").replaceChildren(table_of("Relative variance per draw at n samples per point",
+    [{ text: "Strategy", className: "text" }, ...counts.map((n) => ({ text: `n = ${n}` }))],
+    order.map((s) => make("tr", { "data-strategy": s.name }, cell(name_text(s.name), "text"), ...s.at_counts.map((c) => shown(s, c))))));
+}
+
 function draw_ranking() {
   const scene = scene_now(), best = best_of(scene), column = ranking_columns.find((c) => c.key === sorted_by);
   const value = (s) => { const v = column.of(s); return v === null ? Infinity : column.falls ? -v : v; };
