@@ -36,7 +36,8 @@ std::string strategy_help()
            "solid-angle/power or "
            "power/balance/union@4+1; or one that chooses no light: brdf, cosine, "
            "hemisphere; or strata@N: N light draws per point, spread over the lights by what "
-           "earlier ones have seen.\n\nPolicies:\n" +
+           "earlier ones have seen. strata alone has as many as --spp (render) or --at (compare) "
+           "says; cost, predict and replay do not take it.\n\nPolicies:\n" +
            described(policy_names()) + "Heuristics:\n" + described(heuristic_names()) +
            "Techniques:\n" + described(technique_names());
 }

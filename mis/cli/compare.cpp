@@ -37,6 +37,11 @@ namespace {
 [[noreturn]] void trap(const CompareOptions& options, const Scene& scene, const Strategy& strategy,
                        const SampleName& sample, double at)
 {
+    if (strategy.model == Model::strata)
+        throw std::runtime_error(
+            fmt::format("{}: {} gave a draw that is no number, at point {}\n    Its draws come "
+                        "together, so that none can be replayed.",
+                        scene.file, name_of(strategy), sample.point));
     std::string command =
         replay_words(scene.file, strategy, sample) + fmt::format(" --seed {}", options.run.seed);
     if (options.run.is_sobol()) command += fmt::format(" --sampler sobol --at {}", at);

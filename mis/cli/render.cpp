@@ -163,8 +163,8 @@ Outcome render_spp(const ReadyScene& ready, const ReadyStrategy<float>& strategy
             break;
         }
         Band& band = *next;
-        const auto step = std::max<std::uint64_t>(
-            16, static_cast<std::uint64_t>(samples_together(strategy.strategy())));
+        const auto each = static_cast<std::uint64_t>(samples_together(strategy.strategy()));
+        const std::uint64_t step = std::max<std::uint64_t>(16 / each, 1) * each;
         for (std::uint64_t s = 0; s < spp && !outcome.is_partial; s += step) {
             const int count = static_cast<int>(std::min(step, spp - s));
             outcome.invalid +=
@@ -350,10 +350,15 @@ std::string sampler_of(const std::optional<Strategy>& strategy, const RunOptions
 Strategy with_draws(Strategy strategy, const StopOptions& stop)
 {
     if (strategy.model != Model::strata) return strategy;
-    constexpr int by_default = 64, most = 1 << 20;
+    constexpr int by_default = 64;
     const auto spp = static_cast<std::uint64_t>(stop.spp.value_or(by_default));
     const auto each = static_cast<std::uint64_t>(strategy.counts[0]);
-    if (each == 0) return strata(static_cast<int>(std::min<std::uint64_t>(spp, most)));
+    if (each == 0 && spp > most_strata_draws)
+        throw UsageError(
+            fmt::format("--spp: found {}; strata has at most {} draws together\n    "
+                        "Say strata@N, of which --spp is a multiple.",
+                        spp, most_strata_draws));
+    if (each == 0) return strata(static_cast<int>(spp));
     if (stop.spp && spp % each != 0)
         throw UsageError(
             fmt::format("--spp: found {}; {} has {} samples together, so --spp is {} "

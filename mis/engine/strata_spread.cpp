@@ -11,7 +11,7 @@ template <class S> StrataParts<S>& StrataSpread<S>::room(std::size_t places, int
 {
     rest_.resize(places);
     block_sums_.resize(places / block_size);
-    heavy_place_.resize(static_cast<std::size_t>(draws / 2));
+    heavy_place_.resize(std::min(static_cast<std::size_t>(draws / 2), places));
     heavy_spread_.resize(heavy_place_.size());
     parts_ = {.rest = rest_,
               .block_sums = block_sums_,

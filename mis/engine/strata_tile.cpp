@@ -116,11 +116,11 @@ void StrataTile<T>::observe(std::uint64_t observation, std::span<const LearningR
     const std::size_t points = job_.points.size();
     memory_.estimate.assign(points, Vec3<double>(0));
     for (std::size_t r = 0; r < rounds.size(); ++r) {
+        if (job_.stop != nullptr) job_.stop->check();
         const std::uint64_t key = observation * most_rounds + r;
         timed(StageKind::choose, [&] { learn(); });
         memory_.sum.assign(points, Vec3<double>(0));
-        static const int ratio = getenv("MIS_NB") ? atoi(getenv("MIS_NB")) : 2;
-        const int bsdf_draws = pipeline_.bsdf.empty() ? 0 : (rounds[r].draws * ratio + 7) / 8;
+        const int bsdf_draws = pipeline_.bsdf.empty() ? 0 : lobe_draws(rounds[r].draws);
         job_.bsdf_count = static_cast<T>(bsdf_draws);
         light_half(key, rounds[r].draws);
         if (bsdf_draws > 0) bsdf_half(key, bsdf_draws);
@@ -237,8 +237,10 @@ template <class T> void StrataTile<T>::run_stages(const std::vector<NamedStage<T
     if (job_.stop != nullptr) job_.stop->check();
     const auto samples = batch_.samples;
     std::fill_n(batch_.value.x.begin(), samples, 0.0);
-    std::fill_n(batch_.value.y.begin(), samples, 0.0);
-    std::fill_n(batch_.value.z.begin(), samples, 0.0);
+    if (pipeline_.colour) {  // else the first channel is all that is read
+        std::fill_n(batch_.value.y.begin(), samples, 0.0);
+        std::fill_n(batch_.value.z.begin(), samples, 0.0);
+    }
     for (const NamedStage<T>& stage : stages) timed(stage.kind, [&] { stage.run(job_, batch_); });
 }
 

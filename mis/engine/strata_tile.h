@@ -14,8 +14,9 @@
 
 namespace mis {
 
-/// What `strata` keeps of the points of one tile while it draws: 16 bytes per point and light, and
-/// 12 per block of 4 × 4 pixels and light. Most for a tile of 256 points amid 1024 lights: 4.5 MiB.
+/// What `strata` keeps of the points of one tile while it draws. In float, 16 bytes per point and
+/// light, and 12 per block of 4 × 4 pixels and light: 4.2 MiB at most, of 256 points amid 1024
+/// lights. Beside it 16 bytes per draw of a round: 0.8 MiB at most.
 template <class T> struct StrataMemory {
     LargeVector<T> share, expected, drawn, seen;         ///< [point][place]
     LargeVector<T> block_drawn, block_seen, block_mean;  ///< [block][place]

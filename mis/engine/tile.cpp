@@ -65,26 +65,28 @@ template <class T> struct Workspace<T>::Run {
 
     void all()
     {
+        const int samples = static_cast<int>(range.samples());
         for (std::size_t p = 0; p < job.points.size(); ++p) {
             if (scratch.left() < (batch.points - prepared + 1) * pipeline.table_bytes) flush();
             if (batch.samples == 0) clear_points();
             add_point(p);
-            for (int s = 0; s < range.samples();) {
+            for (int s = 0; s < samples;) {
                 if (batch.samples == batch_capacity) {
                     flush();
                     keep_last_point();
                 }
-                s += add_samples(s);
+                s += add_samples(s, samples);
             }
             if (batch.samples == batch_capacity) flush();
         }
         flush();
     }
 
-    /// Of the last point, from its sample s on, as many as there is room for: how many that is.
-    int add_samples(int s)
+    /// Of the last point's samples, from sample s on, as many as there is room for: how many that
+    /// is.
+    int add_samples(int s, int samples)
     {
-        const int count = std::min(batch_capacity - batch.samples, range.samples() - s);
+        const int count = std::min(batch_capacity - batch.samples, samples - s);
         const auto slot = static_cast<std::ptrdiff_t>(batch.samples);
         std::fill_n(batch.sample_point.begin() + slot, count,
                     static_cast<std::int32_t>(batch.points - 1));
@@ -280,7 +282,7 @@ TileTotals Workspace<T>::run(TileJob<T> job, const Pipeline<T>& pipeline, const 
     result.seconds = thread_seconds() - start;
     for (std::size_t k = 0; k < stage_ticks.size(); ++k)
         result.stage_seconds[k] = static_cast<double>(stage_ticks[k]) / all_ticks * result.seconds;
-    result.samples = job.points.size() * static_cast<std::uint64_t>(range.samples());
+    result.samples = job.points.size() * range.samples();
     result.shadow_rays = batch_->shadow_rays;
     result.invalid = batch_->invalid;
     result.first_invalid = batch_->first_invalid;

@@ -27,7 +27,11 @@ struct SampleRange {
     int chunk = 1, chunks = 1;
     int samples_per_observation = 1;
     int observations() const { return chunk * chunks; }
-    int samples() const { return observations() * samples_per_observation; }
+    std::uint64_t samples() const
+    {
+        return static_cast<std::uint64_t>(observations()) *
+               static_cast<std::uint64_t>(samples_per_observation);
+    }
 };
 
 /// Sums over the points of a tile, of one chunk's observations alone.

@@ -166,7 +166,7 @@ Strategy strata(int draws)
             .heuristic = "balance",
             .technique = "projected",
             .model = Model::strata,
-            .counts = {draws, std::max(draws / light_draws_per_lobe_draw, 1)}};
+            .counts = {draws, lobe_draws(draws)}};
 }
 
 int samples_together(const Strategy& s)
@@ -239,10 +239,10 @@ Strategy parse_strata(std::string_view name, std::optional<std::string_view> dra
 {
     if (!draws) return strata(0);
     const std::optional<int> number = whole_number(*draws);
-    if (!number || *number == 0)
+    if (!number || *number == 0 || *number > most_strata_draws)
         refuse(name, "found \"@" + std::string(*draws) +
-                         "\"; its count is @N light draws per point, 1 to 1000000, as in "
-                         "strata@64");
+                         "\"; its count is @N light draws per point, 1 to " +
+                         std::to_string(most_strata_draws) + ", as in strata@64");
     return strata(*number);
 }
 

@@ -22,19 +22,18 @@ double least_seconds(const StudyGround& ground, const Strategy& strategy, int sa
     return tables + (reads_all_lights(strategy.policy) ? points * lights * 0.5e-9 : 0);
 }
 
-double tried_out(const StudyGround& ground, const Strategy& strategy, int samples)
+double tried_out(const StudyGround& ground, const Strategy& strategy, double samples)
 {
     const StrategyRun run(ground.scene, ground.points, strategy, ground.seed, ground.stop);
     // The first touch of memory is no cost of the strategy.
     TimeObservation cost = run.try_out(1, 4, ground.workspaces, ground.stop);
     if (cost.seconds_per_sample < 1e-3) cost = run.try_out(8, 32, ground.workspaces, ground.stop);
     return static_cast<double>(ground.points.figure_lit) *
-           (samples * samples_together(strategy) * cost.seconds_per_sample +
-            cost.seconds_per_point);
+           (samples * cost.seconds_per_sample + cost.seconds_per_point);
 }
 
 /// least: the floor.
-CostEstimate estimate(const StudyGround& ground, const Strategy& strategy, int samples,
+CostEstimate estimate(const StudyGround& ground, const Strategy& strategy, double samples,
                       double least, double cpu_seconds)
 {
     if (!(least <= cpu_seconds)) return {least, false, true};
@@ -59,14 +58,20 @@ std::vector<std::size_t> from_least(const std::vector<double>& values)
 
 std::vector<CostEstimate> estimate_costs(const StudyGround& ground,
                                          std::span<const Strategy> strategies, int samples,
-                                         double cpu_seconds)
+                                         double cpu_seconds, int samples_per_observation)
 {
+    const auto samples_of = [&](const Strategy& s) {
+        return s.model == Model::strata
+                   ? double(samples) / samples_per_observation * samples_together(s)
+                   : double(samples);
+    };
     std::vector<double> least;
     for (const Strategy& strategy : strategies)
         least.push_back(least_seconds(ground, strategy, samples));
     std::vector<CostEstimate> costs(strategies.size());
     for (const std::size_t s : from_least(least))
-        costs[s] = estimate(ground, strategies[s], samples, least[s], cpu_seconds);
+        costs[s] =
+            estimate(ground, strategies[s], samples_of(strategies[s]), least[s], cpu_seconds);
     keep_affordable(costs, cpu_seconds);
     return costs;
 }

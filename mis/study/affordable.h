@@ -12,14 +12,14 @@ struct CostEstimate {
     bool is_late = false;       ///< affordable at first, but the set-up took the time
 };
 
-/// Estimates what `samples` samples of every point cost, strategy by strategy: by a floor that the
-/// number of lights puts under it and, where that is affordable, by trying out a few points. The
-/// cheapest strategy is always affordable if its floor is. cpu_seconds: the budget for all
-/// together. Those
-/// that could not be tried out before ground.stop was up are not affordable.
+/// Estimates what `samples` samples of every point cost (of `strata` as many observations),
+/// strategy by strategy: by a floor that the number of lights puts under it and, where that is
+/// affordable, by trying out a few points. The cheapest strategy is always affordable if its floor
+/// is. cpu_seconds: the budget for all together. Those that could not be tried out before
+/// ground.stop was up are not affordable.
 std::vector<CostEstimate> estimate_costs(const StudyGround& ground,
                                          std::span<const Strategy> strategies, int samples,
-                                         double cpu_seconds);
+                                         double cpu_seconds, int samples_per_observation = 1);
 
 /// Lets those go that are not affordable together with all that are cheaper, by
 /// the same rule. The cheapest one stays.

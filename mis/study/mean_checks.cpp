@@ -19,13 +19,15 @@ struct MeanSums {
         mean += more.mean, points += more.points;
         variance += more.variance, variance_se2 += more.variance_se2;
     }
-    /// The own error is what it may well be, as the variance is an estimate, too.
-    void put_into(MeanCheck& check, double of) const
+    /// The own error is what it may well be, as the variance is an estimate, too. has_own_error: it
+    /// is by own samples, so the check is not to be of the shared mean instead.
+    void put_into(MeanCheck& check, double of, bool has_own_error) const
     {
         const double se = std::sqrt(variance_se2);
         check.own = mean / of;
         check.own_se = std::sqrt(std::max(variance, 0.0)) / of;
-        check.is_testable = se <= worst_known * variance;
+        check.is_testable =
+            se <= worst_known * variance && (!has_own_error || check.own_se >= check.shared_se);
     }
 };
 
@@ -51,9 +53,9 @@ std::vector<MeanCheck> mean_checks(const StrategyRun& run, const StudyPoints& po
         image.add(of_tile);
     }
     std::vector<MeanCheck> checks = shared.right_means();
-    image.put_into(checks.front(), static_cast<double>(points.figure_points));
+    image.put_into(checks.front(), static_cast<double>(points.figure_points), !place);
     for (std::size_t r = 0; r < regions.size(); ++r)
-        regions[r].put_into(checks[r + 1], regions[r].points);
+        regions[r].put_into(checks[r + 1], regions[r].points, !place);
     return checks;
 }
 

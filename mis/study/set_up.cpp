@@ -114,8 +114,8 @@ private:
     {
         made_.first_samples = samples;
         if (!time_.goal().spp)
-            made_.costs =
-                estimate_costs(ground(first_share), strategies_, samples, first_share * cpu_);
+            made_.costs = estimate_costs(ground(first_share), strategies_, samples,
+                                         first_share * cpu_, per_observation());
     }
 
     /// CPU seconds that some rounds of shared directions take at the very least.

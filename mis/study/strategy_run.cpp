@@ -40,7 +40,7 @@ std::vector<TileTotals> StrategyRun::run_tiles(const Allocation& allocation, int
                 std::span(results_).subspan(tile.first, tile.count),
                 weights.empty() ? weights : weights.subspan(tile.first, tile.count), totals[t]);
         });
-        tiles_[t].samples_per_point += static_cast<std::uint64_t>(range.samples());
+        tiles_[t].samples_per_point += range.samples();
         tiles_[t].cost.add(costs[t]);
     };
     try {
@@ -139,9 +139,12 @@ TimeObservation StrategyRun::observed(std::span<const TileTotals> totals, std::u
 
 namespace {
 
-/// Number of the first sample that is tried out; of `strata`, of which some hundred together are
-/// one observation, no study has so many either.
-constexpr std::uint64_t tried_out = std::uint64_t{1} << 40;
+/// Number of the first sample that is tried out: no study has so many.
+std::uint64_t first_tried_out(const Strategy& strategy)
+{
+    if (strategy.model != Model::strata) return std::uint64_t{1} << 40;
+    return static_cast<std::uint64_t>(samples_together(strategy)) << 30;  // by observations
+}
 
 }  // namespace
 
@@ -161,7 +164,7 @@ TimeObservation StrategyRun::try_out(int samples, std::size_t points,
             job.stop = &stop;
             const int each = samples_together(strategy());
             totals.add(workspace.run(job, ready_.pipeline(tile),
-                                     {.first = tried_out,
+                                     {.first = first_tried_out(strategy()),
                                       .chunk = (samples + each - 1) / each,
                                       .samples_per_observation = each},
                                      results, {}, {}));

@@ -102,7 +102,7 @@ TEST(CommandLine, AnswersWhatIsWrongWithOneMessageAndExitCode2)
         BadLine{"cost VEACH --precision float,", "names separated by commas"},
         BadLine{"cost VEACH --spp 0", "--spp: found 0"},
         BadLine{"cost VEACH --spp 99999999", "--spp: found 99999999"},
-        BadLine{"render VEACH --strategy strata@0 --out x.exr", "1 to 1000000, as in strata@64"},
+        BadLine{"render VEACH --strategy strata@0 --out x.exr", "1 to 65536, as in strata@64"},
         BadLine{"render VEACH --strategy strata@64 --spp 100 --out x.exr", "some whole number"},
         BadLine{"compare VEACH --strategy strata/light", "\"strata\" stands alone"},
         BadLine{"compare VEACH --strategy strata@64 --spp 128", "at least 256; found 128"},
@@ -333,6 +333,19 @@ TEST(CommandLine, RendersAPictureOrNothing)
     for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / ""))
         ++files;
     EXPECT_EQ(files, 1U);
+}
+
+TEST(CommandLine, RendersAllSamplesOfThoseThatComeTogether)
+{
+    const TemporaryFolder folder;
+    const std::string render = "render '" + scene("eclipse") + "' --resolution 16x12 --out '" +
+                               (folder / "a.exr").string();
+    for (const char* options : {"' --strategy strata@12 --spp 24", "' --strategy strata@6 --spp 24",
+                                "' --strategy strata --spp 24", "' --strategy strata@8 --spp 24"}) {
+        const Outcome run = mis_with(render + options);
+        EXPECT_EQ(run.exit, 0) << run.error;
+        EXPECT_NE(run.error.find("24 samples each by strata"), run.error.npos) << run.error;
+    }
 }
 
 TEST(CommandLine, RendersTheClosedFormWhereThereIsOne)

@@ -143,11 +143,11 @@ TEST(Strategy, TheReasonOfARefusalIsSaid)
              {"uniform/balance/one-sample/union", "the technique stands before \"one-sample\""},
              {"uniform/balance/cone/union", "one technique"},
              {"uniform/balance/one-sample/one-sample", "twice"},
-             {"strata@", "1 to 1000000"},
-             {"strata@0", "1 to 1000000"},
-             {"strata@-4", "1 to 1000000"},
-             {"strata@4+1", "1 to 1000000"},
-             {"strata@1000001", "1 to 1000000"},
+             {"strata@", "1 to 65536"},
+             {"strata@0", "1 to 65536"},
+             {"strata@-4", "1 to 65536"},
+             {"strata@4+1", "1 to 65536"},
+             {"strata@65537", "1 to 65536"},
              {"strata/balance", "stands alone"},
          })
         EXPECT_THAT(refusal(name), HasSubstr(std::string(reason))) << name;

@@ -13,6 +13,7 @@ function sentence_parts(sentence, names) {
 
 /// What the strategy's name says, in words.
 function meaning_of(s) {
+  if (s.model === "strata") return `That is: ${s.counts[0]} light draws per point, in rounds. Each light that matters has a stratum of its own, and earlier draws say how the others are spread.`;
   if (s.policy === null) return `${s.name}: ${glossary.technique[s.technique] ?? "no light is chosen"}.`;
   const how = s.counts[1] === 0 ? glossary.heuristic[s.heuristic] : `the light draw and the BSDF draw are weighed ${glossary.heuristic[s.heuristic] ?? "by " + s.heuristic}`;
   const technique = s.technique === "cone" ? "" : ` The direction: ${glossary.technique[s.technique] ?? s.technique}.`;
