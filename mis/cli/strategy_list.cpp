@@ -2,7 +2,6 @@
 
 #include "mis/cli/options.h"
 #include "mis/effects/effects.h"
-#include "mis/engine/strata_tile.h"
 #include "mis/scene/nearest_name.h"
 #include "mis/strategy/names.h"
 
@@ -95,14 +94,6 @@ void add_product(StrategySelection& selection, const StrategyRequest& request,
         selection.left_out.push_back("not ranked by default here; add --policy " + others);
 }
 
-std::string too_many(const Strategy& strata, std::size_t lights)
-{
-    return fmt::format(
-        "{}: it keeps figures of each light at each point of a tile, and there are "
-        "{} lights; at most {} may be",
-        name_of(strata), lights, most_strata_lights);
-}
-
 /// What keeps a command from `strata` on a scene; empty: nothing.
 std::string obstacle(const Strategy& strata, const std::optional<StrataRequest>& request,
                      const SceneTraits& scene)
@@ -113,7 +104,7 @@ std::string obstacle(const Strategy& strata, const std::optional<StrataRequest>&
             "{}: its variance depends on how many draws it has, which this command "
             "has no figures for; `mis compare` has",
             name_of(strata));
-    if (scene.lights > most_strata_lights) return too_many(strata, scene.lights);
+    if (scene.lights > most_strata_lights) return too_many_lights(strata, scene.lights);
     if (request->spp && (*request->spp < 4 * std::int64_t{each} || *request->spp % each != 0))
         return fmt::format(
             "{}: its {} samples come together, so --spp is a multiple of {}, and at "
@@ -171,7 +162,7 @@ StrategyRequest read_lists(const StrategyLists& lists)
 void check_lights(const Strategy& strategy, std::size_t lights)
 {
     if (strategy.model == Model::strata && lights > most_strata_lights)
-        throw UsageError("strategy " + too_many(strategy, lights));
+        throw UsageError("strategy " + too_many_lights(strategy, lights));
 }
 
 SceneTraits traits_of(const Scene& scene) { return {scene.lights.size(), has_lobes(scene)}; }

@@ -82,9 +82,13 @@ void PointLighter::light_tile(int material, std::uint64_t first, int count,
                               const RadianceArrays& radiance)
 {
     results_.assign(points_.size(), {});
+    const int each = samples_together(strategy_->strategy());
+    assert(count % each == 0 && "count: as many samples as come together, or some times that");
     const Tile tile{0, static_cast<std::uint32_t>(points_.size()), material, points_.front().x};
-    totals_.add(workspace_.run(strategy_->job(tile, points_), strategy_->pipeline(material),
-                               {.first = first, .chunk = count, .chunks = 1}, results_, {}, {}));
+    totals_.add(
+        workspace_.run(strategy_->job(tile, points_), strategy_->pipeline(material),
+                       {.first = first, .chunk = count / each, .samples_per_observation = each},
+                       results_, {}, {}));
     for (std::size_t p = 0; p < points_.size(); ++p) {
         const Vec3<double> mean = results_[p].mean();
         for (std::size_t c = 0; c < 3; ++c)

@@ -76,9 +76,10 @@ public:
     }
 
     /// Means of samples [first, first + count) at each point; the same numbers whichever points are
-    /// asked for together, to rounding. 0 where a point is inside a light, seen from below, or not
-    /// finite, which counts its samples as invalid. count ≥ 1. Returns what it cost, with the
-    /// samples that were not finite.
+    /// asked for together, to rounding. With `strata@N`, both are multiples of N, and points that
+    /// are asked for together learn from each other: neighbours, some 256 at a time. 0 where a
+    /// point is inside a light, seen from below, or not finite, which counts its samples as
+    /// invalid. count ≥ 1. Returns what it cost, with the samples that were not finite.
     TileTotals light(const PointArrays& points, std::uint64_t first, int count,
                      const RadianceArrays& radiance);
 

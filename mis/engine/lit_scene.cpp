@@ -2,6 +2,7 @@
 
 #include "mis/engine/choices.h"
 #include "mis/engine/radiance_scale.h"
+#include "mis/math/raise.h"
 #include "mis/strategy/names.h"
 #include "mis/trace/surface_points.h"
 
@@ -79,6 +80,8 @@ ReadyStrategy<T>::ReadyStrategy(const LitScene& scene, const Strategy& strategy,
 {
     const Lights& lights = scene.scene().lights;
     if (strategy.model == Model::strata) {
+        if (lights.size() > most_strata_lights)
+            raise<StrategyError>(too_many_lights(strategy, lights.size()));
         if (!numbers.is_asked_for) numbers.samples_per_scrambling = one_scrambling;
         order_ = scene.order(stop);
     } else if (strategy.chooses_light() && numbers.is_sobol()) {

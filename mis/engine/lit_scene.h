@@ -95,7 +95,7 @@ template <class T> class ReadyStrategy {
 public:
     /// strategy: checked (strategy/strategy.h). kernels: kernels<T>(). Keeps references to scene
     /// and kernels. also: effects that no scene, tile or material has left out, whatever it calls
-    /// for. Throws Stopped.
+    /// for. Throws Stopped, and StrategyError where there are more lights than `strata` takes.
     ReadyStrategy(const LitScene& scene, const Strategy& strategy, const Kernels<T>& kernels,
                   NumberSource numbers, EffectSet also = {}, const StopToken& stop = {});
 

@@ -27,9 +27,6 @@ template <class T> struct StrataMemory {
     StrataColumns columns;
 };
 
-/// Lights for which each can be a stratum.
-inline constexpr std::size_t most_strata_lights = 1024;
-
 /// Runs `strata` over the points of a tile: every observation learns afresh, from its own rounds
 /// alone, so that observations are independent. What a round sees counts from the next one on: the
 /// same bits whoever runs the tile.

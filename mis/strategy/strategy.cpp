@@ -169,6 +169,13 @@ Strategy strata(int draws)
             .counts = {draws, lobe_draws(draws)}};
 }
 
+std::string too_many_lights(const Strategy& s, std::size_t lights)
+{
+    return name_of(s) + ": it keeps figures of each light at each point of a tile, and there are " +
+           std::to_string(lights) + " lights; at most " + std::to_string(most_strata_lights) +
+           " may be";
+}
+
 int samples_together(const Strategy& s)
 {
     return s.model == Model::strata ? std::max(s.counts[0], 1) : 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,6 +39,12 @@ inline constexpr std::string_view strata_name = "strata";
 /// On materials with a lobe, a round of so many light draws has so many draws of the lobe: a
 /// quarter. On the shipped scenes, variance × time hardly changes from an eighth to one each.
 constexpr int lobe_draws(int light_draws) { return (light_draws + 3) / 4; }
+
+/// The most lights for each of which `strata` keeps what was seen of it.
+inline constexpr std::size_t most_strata_lights = 1024;
+
+/// What is wrong with `strata` on a scene of so many.
+std::string too_many_lights(const Strategy& strata, std::size_t lights);
 
 /// The most light draws of `strata` at a point: 256 points count theirs in a float.
 inline constexpr int most_strata_draws = 65536;

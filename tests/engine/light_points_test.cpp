@@ -197,5 +197,31 @@ TEST(LightPointsDeathTest, AMaterialThatThereIsNotIsNamedOrCounted)
     }
 }
 
+TEST(LightPoints, AreLitByStrataOfTheirOwn)
+{
+    const Hosted host;
+    const ReadyStrategy<float> strategy(host.lit, strata(64), kernels<float>(), 1);
+    Columns columns = host.mixed();
+    PointLighter lighter(host.lit, strategy);
+    const TileTotals totals = lighter.light(columns.points(), 0, 256, columns.out());
+    EXPECT_EQ(totals.samples, 256 * columns.id.size());
+    const ReadyStrategy<float> plain(host.lit, parse_strategy("product/power"), kernels<float>(),
+                                     2);
+    const std::vector<Vec3<double>> expected = rendered(host, plain, 4096);
+    double sum = 0, expected_sum = 0;  // of some 900 points: both are known to a thousandth
+    for (std::size_t i = 0; i < columns.id.size(); ++i) {
+        sum += static_cast<double>(columns.radiance[0][i]);
+        expected_sum += expected[columns.id[i]].x;
+    }
+    EXPECT_NEAR(sum, expected_sum, 0.01 * expected_sum);
+}
+
+TEST(LightPoints, RefuseStrataOfTooManyLights)
+{
+    const Lights many(1025, make_light({0, 3, 0}, 0.1, Vec3<double>(1)));
+    const TestScene test(probe_under(many, grey_floor()));
+    EXPECT_THROW(ReadyStrategy<float>(test.lit, strata(64), kernels<float>(), 1), StrategyError);
+}
+
 }  // namespace
 }  // namespace mis
