@@ -19,15 +19,14 @@ struct MeanSums {
         mean += more.mean, points += more.points;
         variance += more.variance, variance_se2 += more.variance_se2;
     }
-    /// The own error is what it may well be, as the variance is an estimate, too. has_own_error: it
-    /// is by own samples, so the check is not to be of the shared mean instead.
+    /// The own error is what it may well be, as the variance is an estimate, too. has_own_error: by
+    /// own samples, which may tell the mean far better than shared directions do.
     void put_into(MeanCheck& check, double of, bool has_own_error) const
     {
         const double se = std::sqrt(variance_se2);
         check.own = mean / of;
         check.own_se = std::sqrt(std::max(variance, 0.0)) / of;
-        check.is_testable =
-            se <= worst_known * variance && (!has_own_error || check.own_se >= check.shared_se);
+        check.is_testable = !has_own_error && se <= worst_known * variance;
     }
 };
 

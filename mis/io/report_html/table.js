@@ -70,7 +70,7 @@ function draw_at_counts() {
   const shown = (s, c) => c.status !== "ranked"
     ? make("td", { className: "none", title: c.reason ?? "" }, status_words[c.status])
     : make("td", { title: `relative error ${percent(c.relative_error.value)}, ${number(1e9 * c.seconds_per_sample.value)} ns/sample` },
-      s.exact ? "exact" : figure_of(c.relative_variance));
+      ...[s.exact ? "exact" : figure_of(c.relative_variance)].flat());
   $("at-counts-table").replaceChildren(table_of("Relative variance per draw at n samples per point",
     [{ text: "Strategy", className: "text" }, ...counts.map((n) => ({ text: `n = ${n}` }))],
     order.map((s) => make("tr", { "data-strategy": s.name }, cell(name_text(s.name), "text"), ...s.at_counts.map((c) => shown(s, c))))));
