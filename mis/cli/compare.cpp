@@ -202,10 +202,9 @@ int run_compare(const CompareOptions& options)
     check_options(options);
     StrategyRequest request = read_lists({options.policies, options.heuristics, options.techniques,
                                           options.models, options.strategies});
-    constexpr double most_draws = 65536;
-    request.strata = {
-        .draws = static_cast<int>(std::clamp(std::round(options.at.front()), 1.0, most_draws)),
-        .spp = options.stop.spp};
+    request.strata = {.draws = static_cast<int>(std::clamp(std::round(options.at.front()), 1.0,
+                                                           double(most_strata_draws))),
+                      .spp = options.stop.spp};
     if (!options.out.empty()) check_report_folder(options.out, options.force);
     Report report{run_head(options.run)};
     report.at = options.at.front();

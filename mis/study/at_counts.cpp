@@ -48,12 +48,11 @@ StudyOptions options_for(const StudyOptions& asked, double n, double seconds, co
 std::optional<Strategy> at_count_of(const Strategy& s, const StudyOptions& options, double n)
 {
     if (s.model != Model::strata) return s;
-    constexpr double most_draws = 65536;
     const double own = samples_together(s);
     if (own != std::round(options.at))
         return std::fmod(n, own) == 0 ? std::optional(s) : std::nullopt;
     if (n == options.at) return s;
-    if (!(n >= 1 && n <= most_draws) || n != std::floor(n)) return std::nullopt;
+    if (!(n >= 1 && n <= most_strata_draws) || n != std::floor(n)) return std::nullopt;
     const auto draws = static_cast<std::uint64_t>(n);
     if (options.spp && (*options.spp < 4 * draws || *options.spp % draws != 0)) return std::nullopt;
     return strata(static_cast<int>(n));
